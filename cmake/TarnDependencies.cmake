@@ -1,0 +1,39 @@
+# Everything from outside, each found once. The README says why each is there.
+find_package(Threads REQUIRED)
+find_package(PkgConfig REQUIRED)
+find_package(glm CONFIG QUIET)
+if(NOT TARGET glm::glm)
+  find_path(GLM_INCLUDE_DIR glm/glm.hpp REQUIRED)
+  add_library(glm::glm INTERFACE IMPORTED)
+  target_include_directories(glm::glm INTERFACE ${GLM_INCLUDE_DIR})
+endif()
+find_package(fmt REQUIRED)
+find_package(TBB REQUIRED)
+find_package(embree 3 REQUIRED)
+find_package(OpenEXR REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(glfw3 REQUIRED)
+find_package(GTest REQUIRED)
+find_package(benchmark REQUIRED)
+pkg_check_modules(TINYGLTF REQUIRED IMPORTED_TARGET tinygltf)
+pkg_check_modules(STB REQUIRED IMPORTED_TARGET stb)
+pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)
+pkg_check_modules(OSMESA REQUIRED osmesa)
+find_path(IMGUI_INCLUDE_DIR imgui.h PATH_SUFFIXES imgui REQUIRED)
+find_library(IMGUI_LIBRARY imgui REQUIRED)
+add_library(imgui_imgui INTERFACE)
+target_include_directories(imgui_imgui SYSTEM INTERFACE ${IMGUI_INCLUDE_DIR} ${IMGUI_INCLUDE_DIR}/backends)
+target_link_libraries(imgui_imgui INTERFACE ${IMGUI_LIBRARY} PkgConfig::STB ${CMAKE_DL_LIBS})
+
+# The GL loader, written at build time by Debian's generator from its own copy of the registry (no network).
+find_program(GLAD_GENERATOR glad REQUIRED)
+set(GLAD_DIR ${CMAKE_BINARY_DIR}/glad)
+add_custom_command(
+  OUTPUT ${GLAD_DIR}/src/gl.c ${GLAD_DIR}/include/glad/gl.h
+  COMMAND ${GLAD_GENERATOR} --quiet --api gl:core=4.5 --extensions GL_KHR_debug --reproducible
+          --out-path ${GLAD_DIR} c
+  COMMENT "Generating the OpenGL 4.5 loader"
+  VERBATIM)
+add_library(tarn_glad STATIC ${GLAD_DIR}/src/gl.c)
+target_include_directories(tarn_glad SYSTEM PUBLIC ${GLAD_DIR}/include)

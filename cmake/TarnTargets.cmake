@@ -1,0 +1,11 @@
+# One small library per folder: third-party libraries are PRIVATE, so that a forbidden include does not compile.
+
+# tarn_library(NAME [PUBLIC libs...] [PRIVATE libs...]): a static library of all .cpp files of this folder.
+# Includes are written from the layers' root: "core/error.h", "shared/math/brdf.h".
+function(tarn_library NAME)
+  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
+  file(GLOB_RECURSE SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  add_library(tarn_${NAME} STATIC ${SOURCES})
+  target_include_directories(tarn_${NAME} PUBLIC ${CMAKE_SOURCE_DIR}/engine ${CMAKE_SOURCE_DIR}/shaders)
+  target_link_libraries(tarn_${NAME} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+endfunction()
