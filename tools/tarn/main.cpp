@@ -1,0 +1,36 @@
+// tarn: renders, measures and shows scenes. Exit status: 0; 1 with one line on stderr where the world disappoints;
+// 2 for wrong usage.
+#include <cstdio>
+#include <exception>
+
+#include "commands.h"
+#include "core/error.h"
+
+namespace tarn {
+namespace {
+
+int run(int argc, char** argv) {
+    CLI::App app{"Tarn: an OpenGL 4.5 deferred rasterizer with resampled lights and Embree shadows, on the CPU."};
+    app.require_subcommand(1);
+    add_info_command(app);
+    add_compare_command(app);
+    try {
+        app.parse(argc, argv);
+        return 0;
+    } catch (const CLI::ParseError& error) {
+        const int status = app.exit(error);
+        return status == 0 ? 0 : 2;
+    }
+}
+
+}  // namespace
+}  // namespace tarn
+
+int main(int argc, char** argv) {
+    try {
+        return tarn::run(argc, argv);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "tarn: %s\n", error.what());
+        return 1;
+    }
+}
