@@ -15,9 +15,10 @@ struct ExrChannel {
     std::vector<float> values;
 };
 
-// Writes 32-bit float channels, ZIP-compressed. Whole or not at all: written to a temporary name, then renamed.
-// Throws Error naming the file.
-void write_exr(const std::filesystem::path& path, int width, int height, const std::vector<ExrChannel>& channels);
+// Writes 32-bit float channels, ZIP-compressed. Whole or not at all: written to a temporary name, then
+// renamed. Throws Error naming the file.
+void write_exr(const std::filesystem::path& path, int width, int height,
+               const std::vector<ExrChannel>& channels);
 
 // Writes a 3-channel image as R, G, B.
 void write_exr(const std::filesystem::path& path, const Image& image);
@@ -28,7 +29,8 @@ Image read_radiance(const std::filesystem::path& path);
 // Reads all channels of an EXR file by name (half and float alike). Sets `width` and `height`.
 std::vector<ExrChannel> read_exr_channels(const std::filesystem::path& path, int& width, int& height);
 
-// Writes 8-bit RGB from values in [0, 1] that are already display-encoded (sRGB); others are clamped. Whole or not at all.
+// Writes 8-bit RGB from values in [0, 1] that are already display-encoded (sRGB); others are clamped. Whole
+// or not at all.
 void write_png(const std::filesystem::path& path, const Image& display_rgb);
 
 // Reads a PNG as 3 channels of display-encoded values in [0, 1].
