@@ -37,12 +37,12 @@ install_packages() {
     local log=$TARN_ROOT/build/packages.log as_root=()
     if (($(id -u) != 0)); then
         as_root=(sudo)
-        can_sudo || fail "neither root nor sudo, and $# packages are missing: $*"
+        can_sudo || fail "neither root nor sudo to install the missing packages: $*"
     fi
     local apt=("${as_root[@]}" env LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive apt-get -y
         -o APT::Status-Fd=1 -o DPkg::Lock::Timeout=600 -o Acquire::Retries=3)
     mkdir -p "$TARN_ROOT/build"
-    say "installing $# packages: $*"
+    say "installing the missing packages: $*"
     {
         "${apt[@]}" update </dev/null 2>&1 &&
             "${apt[@]}" install --no-install-recommends "$@" </dev/null 2>&1
@@ -80,14 +80,12 @@ configure_preset() {
         show_progress "configure" "$log" || fail_with_log "CMake could not configure the build" "$log"
 }
 
-# fail_with_log TEXT LOG: shows what went wrong (from the first failed step on), says where the rest is, and ends.
+# fail_with_log TEXT LOG: shows the log from its first error on, says where the rest is, and ends.
 fail_with_log() {
-    if grep -q '^FAILED: ' "$2"; then
-        sed -n '/^FAILED: /,$p' "$2" >&2
-    else
-        tail -n 60 "$2" >&2
-    fi
-    fail "$1; all of the log: $2"
+    local first
+    first=$(grep -nm 1 -E '^(FAILED: |CMake Error|E: |dpkg: error)' "$2" | cut -d : -f 1) || first=1
+    tail -n "+$first" "$2" | head -n 200 >&2
+    fail "$1; the whole log: $2"
 }
 
 # has_display: whether a window can be opened. A variable alone proves nothing: it outlives the display it names.
