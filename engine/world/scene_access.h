@@ -1,0 +1,43 @@
+// The world as the shared scene functions see it on the CPU: shaders/shared/scene/*.h become members of this class.
+#pragma once
+
+#include "shared/interface/records.h"
+#include "shared/math/alias_table.h"
+#include "shared/math/environment.h"
+#include "shared/math/random.h"
+#include "shared/math/ray_offset.h"
+#include "shared/math/reservoir.h"
+#include "shared/math/shading.h"
+#include "shared/math/texture_filter.h"
+#include "shared/math/warp.h"
+#include "world/world.h"
+
+namespace tarn {
+
+// A view: keeps a reference to the world, which must outlive it. Safe to use from many threads.
+class SceneAccess {
+  public:
+    explicit SceneAccess(const World& world) : world_(world) {}
+
+    uvec4 fetch_vertex_row(uint row) const { return world_.vertex_rows[row]; }
+    uvec3 fetch_triangle(uint triangle) const { return world_.triangles[triangle]; }
+    uvec4 fetch_instance_row(uint row) const { return world_.instance_rows[row]; }
+    uvec4 fetch_material_row(uint row) const { return world_.material_rows[row]; }
+    vec4 fetch_texel(uint texel) const { return vec4(world_.texels[texel]) * (1.0f / 65535.0f); }
+    uvec4 fetch_light_row(uint row) const { return world_.lights.rows[row]; }
+    uvec4 fetch_light_alias_row(uint row) const { return world_.lights.alias_rows[row]; }
+    vec4 fetch_environment_texel(uint texel) const { return world_.environment.texels[texel]; }
+    uvec4 fetch_environment_alias_row(uint row) const { return world_.environment.alias_rows[row]; }
+    uint get_light_count() const { return world_.lights.count; }
+    uvec2 get_environment_size() const { return uvec2(world_.environment.width, world_.environment.height); }
+
+#undef FN
+#define FN inline
+#include "shared/scene/surface.h"
+#include "shared/scene/lights.h"
+
+  private:
+    const World& world_;
+};
+
+}  // namespace tarn

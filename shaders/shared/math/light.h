@@ -1,0 +1,137 @@
+// Lights as the resampling sees them: a record, and what one sample of it sends to a point.
+//
+// Sample domains ("measure"): triangles by area, the environment by solid angle, punctual lights are a single point.
+// `IncidentLight::value` already holds the light's side of the geometry term in that measure, so for every kind
+//     reflected radiance = BRDF * max(0, n.wi) * value / pdf_in_measure.
+#pragma once
+
+#include "shared/dialect.h"
+#include "shared/math/packing.h"
+
+SHARED_BEGIN
+
+CONSTANT uint LIGHT_POINT = 0u;
+CONSTANT uint LIGHT_SPOT = 1u;
+CONSTANT uint LIGHT_DIRECTIONAL = 2u;
+CONSTANT uint LIGHT_TRIANGLE = 3u;
+CONSTANT uint LIGHT_KIND_MASK = 7u;
+CONSTANT uint LIGHT_DOUBLE_SIDED = 8u;  // a triangle that emits on both sides
+CONSTANT uint LIGHT_TEXTURED = 16u;     // radiance is scaled by the material's emission map
+
+// The light index that stands for the environment map.
+CONSTANT uint LIGHT_ENVIRONMENT = 0xfffffffeu;
+
+// Row layout in `pack_light`. Positions are relative to the world's origin.
+struct Light {
+    vec3 position;   // triangle: first vertex
+    uint flags;      // kind and LIGHT_* bits
+    vec3 edge1;      // triangle: second vertex - first; spot, directional: unit direction of travel
+    uint instance;   // triangle: where it comes from
+    vec3 edge2;      // triangle: third vertex - first; spot: (angle scale, angle offset, 0)
+    uint primitive;
+    vec3 radiance;   // triangle: W sr^-1 m^-2; point, spot: W/sr; directional: W/m^2
+    float range;     // point, spot: metres, 0 = unlimited
+};
+
+CONSTANT uint LIGHT_ROWS = 4u;
+
+FN Light unpack_light(uvec4 row0, uvec4 row1, uvec4 row2, uvec4 row3) {
+    Light light;
+    light.position = row_xyz(row0);
+    light.flags = row0.w;
+    light.edge1 = row_xyz(row1);
+    light.instance = row1.w;
+    light.edge2 = row_xyz(row2);
+    light.primitive = row2.w;
+    light.radiance = row_xyz(row3);
+    light.range = uintBitsToFloat(row3.w);
+    return light;
+}
+
+FN void pack_light(Light light, OUT(uvec4) row0, OUT(uvec4) row1, OUT(uvec4) row2, OUT(uvec4) row3) {
+    row0 = pack_row(light.position, light.flags);
+    row1 = pack_row(light.edge1, light.instance);
+    row2 = pack_row(light.edge2, light.primitive);
+    row3 = pack_row(light.radiance, floatBitsToUint(light.range));
+}
+
+// One sample as a point sees it, before visibility.
+struct IncidentLight {
+    vec3 direction;      // unit, from the point to the light
+    float distance;      // metres; RAY_INFINITY for directional lights and the environment
+    vec3 value;          // see the head of this file; exactly 0 where nothing arrives
+    vec3 light_normal;   // unit normal of a triangle, on the side of the point; 0 for other kinds
+};
+
+FN IncidentLight no_incident_light() {
+    IncidentLight none;
+    none.direction = vec3(0.0f, 1.0f, 0.0f);
+    none.distance = 0.0f;
+    none.value = vec3(0.0f);
+    none.light_normal = vec3(0.0f);
+    return none;
+}
+
+// Inverse-square falloff with the smooth window of KHR_lights_punctual where a range is given.
+FN float punctual_falloff(float distance, float range) {
+    float falloff = 1.0f / (distance * distance);
+    if (range > 0.0f) {
+        float q = distance / range;
+        falloff *= clamp(1.0f - q * q * q * q, 0.0f, 1.0f);
+    }
+    return falloff;
+}
+
+FN float triangle_area(Light light) { return 0.5f * length(cross(light.edge1, light.edge2)); }
+
+FN vec3 triangle_point(Light light, vec2 barycentrics) {
+    return light.position + light.edge1 * barycentrics.x + light.edge2 * barycentrics.y;
+}
+
+// Light from the point of a triangle at `barycentrics`; radiance is `radiance`, texture included.
+// A triangle without area, seen edge-on or from behind, or touching the point, sends nothing.
+FN IncidentLight incident_from_triangle(Light light, vec2 barycentrics, vec3 radiance, vec3 point) {
+    IncidentLight incident = no_incident_light();
+    vec3 normal = cross(light.edge1, light.edge2);
+    float normal_length = length(normal);
+    vec3 to_light = triangle_point(light, barycentrics) - point;
+    float distance2 = dot(to_light, to_light);
+    if (normal_length == 0.0f || distance2 == 0.0f) return incident;
+    float distance = sqrt(distance2);
+    vec3 direction = to_light / distance;
+    float cosine = -dot(normal, direction) / normal_length;
+    if (cosine < 0.0f && (light.flags & LIGHT_DOUBLE_SIDED) == 0u) return incident;
+    incident.direction = direction;
+    incident.distance = distance;
+    incident.light_normal = normal * ((cosine < 0.0f ? -1.0f : 1.0f) / normal_length);
+    incident.value = radiance * (abs(cosine) / distance2);
+    return incident;
+}
+
+// Light from a point, spot or directional light.
+FN IncidentLight incident_from_punctual(Light light, vec3 point) {
+    IncidentLight incident = no_incident_light();
+    uint kind = light.flags & LIGHT_KIND_MASK;
+    if (kind == LIGHT_DIRECTIONAL) {
+        incident.direction = -light.edge1;
+        incident.distance = RAY_INFINITY;
+        incident.value = light.radiance;
+        return incident;
+    }
+    vec3 to_light = light.position - point;
+    float distance2 = dot(to_light, to_light);
+    if (distance2 == 0.0f) return incident;
+    float distance = sqrt(distance2);
+    incident.direction = to_light / distance;
+    incident.distance = distance;
+    float cone = 1.0f;
+    if (kind == LIGHT_SPOT) {
+        // KHR_lights_punctual: a linear ramp in the cosine between the cones, squared.
+        cone = clamp(-dot(light.edge1, incident.direction) * light.edge2.x + light.edge2.y, 0.0f, 1.0f);
+        cone *= cone;
+    }
+    incident.value = light.radiance * (cone * punctual_falloff(distance, light.range));
+    return incident;
+}
+
+SHARED_END

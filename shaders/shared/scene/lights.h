@@ -1,0 +1,138 @@
+// The scene's lights: loading, drawing and evaluating samples. One text for shaders and the CPU; see scene/surface.h.
+//
+// Also needs, where it is included:
+//     uvec4 fetch_light_row(uint), uvec4 fetch_light_alias_row(uint), vec4 fetch_environment_texel(uint) (radiance, pmf),
+//     uvec4 fetch_environment_alias_row(uint), uint get_light_count(), uvec2 get_environment_size() (0 = no sky)
+
+// Share of candidates that go to the environment where there are other lights too (Bitterli et al. 2020, section 5).
+CONSTANT_MEMBER float ENVIRONMENT_SHARE = 0.25f;
+
+// A drawn sample and its density: pmf of the light times density in the light's measure (see math/light.h).
+struct LightCandidate {
+    LightSample drawn;
+    float pdf;
+};
+
+FN Light load_light(uint light) {
+    uint row = light * LIGHT_ROWS;
+    return unpack_light(fetch_light_row(row), fetch_light_row(row + 1u), fetch_light_row(row + 2u),
+                        fetch_light_row(row + 3u));
+}
+
+FN bool has_environment() { return get_environment_size().x > 0u; }
+
+// ---- Evaluation ---------------------------------------------------------------------------------------------------
+
+// Sky radiance along a unit direction; 0 without a sky.
+FN vec3 load_environment(vec3 direction) {
+    uvec2 size = get_environment_size();
+    if (size.x == 0u) return vec3(0.0f);
+    TexelFootprint f = texel_footprint(environment_uv(direction), ivec2(int(size.x), int(size.y)), WRAP_REPEAT,
+                                       WRAP_CLAMP, false);
+    return vec3(fetch_environment_texel(f.indices.x)) * f.weights.x +
+           vec3(fetch_environment_texel(f.indices.y)) * f.weights.y +
+           vec3(fetch_environment_texel(f.indices.z)) * f.weights.z +
+           vec3(fetch_environment_texel(f.indices.w)) * f.weights.w;
+}
+
+// Solid-angle density with which the environment is sampled along `direction`, given that it is sampled at all.
+FN float environment_pdf_solid_angle(vec3 direction) {
+    uvec2 size = get_environment_size();
+    if (size.x == 0u) return 0.0f;
+    vec2 uv = environment_uv(direction);
+    uint column = min(uint(uv.x * float(size.x)), size.x - 1u);
+    uint row = min(uint(uv.y * float(size.y)), size.y - 1u);
+    return fetch_environment_texel(row * size.x + column).w / environment_texel_solid_angle(row, size.x, size.y);
+}
+
+// Radiance that the triangle light emits at `barycentrics`, emission map included.
+FN vec3 load_triangle_radiance(Light light, vec2 barycentrics) {
+    if ((light.flags & LIGHT_TEXTURED) == 0u) return light.radiance;
+    InstanceRecord i = load_instance(light.instance);
+    VertexExtras extras = interpolate_extras(load_vertex_indices(i, light.primitive), barycentrics);
+    return light.radiance * vec3(sample_slot(load_slot(i.material, SLOT_EMISSION), extras.uv0, extras.uv1));
+}
+
+// What `drawn` sends to `point`, before visibility.
+FN IncidentLight load_incident_light(LightSample drawn, vec3 point) {
+    if (drawn.light == INVALID_INDEX) return no_incident_light();
+    if (drawn.light == LIGHT_ENVIRONMENT) {
+        IncidentLight sky = no_incident_light();
+        sky.direction = decode_octahedral(drawn.uv);
+        sky.distance = RAY_INFINITY;
+        sky.value = load_environment(sky.direction);
+        return sky;
+    }
+    Light light = load_light(drawn.light);
+    if ((light.flags & LIGHT_KIND_MASK) == LIGHT_TRIANGLE) {
+        return incident_from_triangle(light, drawn.uv, load_triangle_radiance(light, drawn.uv), point);
+    }
+    return incident_from_punctual(light, point);
+}
+
+// ---- Drawing ------------------------------------------------------------------------------------------------------
+
+// A place on light `index`, which was chosen with probability `pmf`.
+FN LightCandidate draw_on_light(uint index, float pmf, vec2 u) {
+    LightCandidate c;
+    c.drawn.light = index;
+    c.drawn.uv = vec2(0.0f);
+    c.pdf = pmf;
+    Light light = load_light(index);
+    if ((light.flags & LIGHT_KIND_MASK) == LIGHT_TRIANGLE) {
+        c.drawn.uv = sample_triangle(u);
+        c.pdf = ratio_or_zero(pmf, triangle_area(light));
+    }
+    return c;
+}
+
+// A direction of the sky, by importance.
+FN LightCandidate draw_environment(uvec4 bits) {
+    uvec2 size = get_environment_size();
+    uint bucket = uniform_index(bits.x, size.x * size.y);
+    DiscreteSample texel = resolve_alias(unpack_alias_bucket(fetch_environment_alias_row(bucket)), bucket,
+                                         float_from_bits(bits.y));
+    uint row = texel.index / size.x;
+    vec3 direction = environment_direction(texel.index - row * size.x, row, size.x, size.y,
+                                           vec2(float_from_bits(bits.z), float_from_bits(bits.w)));
+    LightCandidate c;
+    c.drawn.light = LIGHT_ENVIRONMENT;
+    c.drawn.uv = encode_octahedral(direction);
+    c.pdf = texel.pmf / environment_texel_solid_angle(row, size.x, size.y);
+    return c;
+}
+
+// A light by its power (alias table).
+FN LightCandidate draw_light_by_power(uvec4 bits) {
+    uint bucket = uniform_index(bits.x, get_light_count());
+    DiscreteSample light =
+        resolve_alias(unpack_alias_bucket(fetch_light_alias_row(bucket)), bucket, float_from_bits(bits.y));
+    return draw_on_light(light.index, light.pmf, vec2(float_from_bits(bits.z), float_from_bits(bits.w)));
+}
+
+FN LightCandidate no_candidate() {
+    LightCandidate c;
+    c.drawn = no_light_sample();
+    c.pdf = 0.0f;
+    return c;
+}
+
+// One light out of all with equal probability, the sky being one of them.
+FN LightCandidate draw_light_uniformly(uvec4 bits) {
+    uint count = get_light_count() + (has_environment() ? 1u : 0u);
+    if (count == 0u) return no_candidate();
+    uint index = uniform_index(bits.x, count);
+    float pmf = 1.0f / float(count);
+    if (index < get_light_count()) {
+        return draw_on_light(index, pmf, vec2(float_from_bits(bits.z), float_from_bits(bits.w)));
+    }
+    LightCandidate sky = draw_environment(hash_pcg4d(bits));
+    sky.pdf *= pmf;
+    return sky;
+}
+
+// Probability that a single draw by power goes to the sky.
+FN float environment_probability() {
+    if (!has_environment()) return 0.0f;
+    return get_light_count() > 0u ? ENVIRONMENT_SHARE : 1.0f;
+}
