@@ -1,0 +1,105 @@
+// Compiling, linking and uniforms.
+#include "gl/program.h"
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include <vector>
+
+#include "core/error.h"
+
+namespace tarn {
+namespace {
+
+void destroy_shader(GLuint id) {
+    glDeleteShader(id);
+}
+using Shader = Handle<destroy_shader>;
+
+std::string read_shader_log(GLuint id) {
+    GLint length = 0;
+    glGetShaderiv(id, GL_INFO_LOG_LENGTH, &length);
+    std::string log(std::size_t(length), '\0');
+    if (length > 0) glGetShaderInfoLog(id, length, nullptr, log.data());
+    return log;
+}
+
+std::string read_program_log(GLuint id) {
+    GLint length = 0;
+    glGetProgramiv(id, GL_INFO_LOG_LENGTH, &length);
+    std::string log(std::size_t(length), '\0');
+    if (length > 0) glGetProgramInfoLog(id, length, nullptr, log.data());
+    return log;
+}
+
+Shader compile(const std::string& program_name, const ShaderStage& stage) {
+    Shader shader(glCreateShader(stage.type));
+    set_label(GL_SHADER, shader.id(), program_name);
+    const char* text = stage.source.text.c_str();
+    glShaderSource(shader.id(), 1, &text, nullptr);
+    glCompileShader(shader.id());
+    GLint compiled = GL_FALSE;
+    glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &compiled);
+    if (compiled != GL_TRUE)
+        throw Error("shader {} does not compile: {}", program_name,
+                    translate_shader_log(stage.source, read_shader_log(shader.id())));
+    return shader;
+}
+
+}  // namespace
+
+Program::Program(std::string name, std::span<const ShaderStage> stages)
+    : name_(std::move(name)), handle_(glCreateProgram()) {
+    set_label(GL_PROGRAM, id(), name_);
+    std::vector<Shader> shaders;
+    for (const ShaderStage& stage : stages) {
+        shaders.push_back(compile(name_, stage));
+        glAttachShader(id(), shaders.back().id());
+    }
+    glLinkProgram(id());
+    for (const Shader& shader : shaders) glDetachShader(id(), shader.id());
+    GLint linked = GL_FALSE;
+    glGetProgramiv(id(), GL_LINK_STATUS, &linked);
+    if (linked != GL_TRUE)
+        throw Error("shader {} does not link: {}", name_,
+                    translate_shader_log(stages.front().source, read_program_log(id())));
+}
+
+void Program::set(std::string_view uniform, int value) const {
+    glProgramUniform1i(id(), find_location(uniform), value);
+}
+void Program::set(std::string_view uniform, unsigned value) const {
+    glProgramUniform1ui(id(), find_location(uniform), value);
+}
+void Program::set(std::string_view uniform, float value) const {
+    glProgramUniform1f(id(), find_location(uniform), value);
+}
+void Program::set(std::string_view uniform, const glm::vec2& value) const {
+    glProgramUniform2fv(id(), find_location(uniform), 1, glm::value_ptr(value));
+}
+void Program::set(std::string_view uniform, const glm::vec3& value) const {
+    glProgramUniform3fv(id(), find_location(uniform), 1, glm::value_ptr(value));
+}
+void Program::set(std::string_view uniform, const glm::vec4& value) const {
+    glProgramUniform4fv(id(), find_location(uniform), 1, glm::value_ptr(value));
+}
+void Program::set(std::string_view uniform, const glm::ivec2& value) const {
+    glProgramUniform2iv(id(), find_location(uniform), 1, glm::value_ptr(value));
+}
+void Program::set(std::string_view uniform, const glm::uvec2& value) const {
+    glProgramUniform2uiv(id(), find_location(uniform), 1, glm::value_ptr(value));
+}
+void Program::set(std::string_view uniform, const glm::mat4& value) const {
+    glProgramUniformMatrix4fv(id(), find_location(uniform), 1, GL_FALSE, glm::value_ptr(value));
+}
+
+// GL itself ignores location -1, which stands for unknown names.
+GLint Program::find_location(std::string_view uniform) const {
+    const auto known = locations_.find(uniform);
+    if (known != locations_.end()) return known->second;
+    std::string name(uniform);
+    const GLint location = glGetUniformLocation(id(), name.c_str());
+    locations_.emplace(std::move(name), location);
+    return location;
+}
+
+}  // namespace tarn

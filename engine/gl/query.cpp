@@ -1,0 +1,35 @@
+// Timestamp queries.
+#include "gl/query.h"
+
+namespace tarn {
+namespace {
+
+GLuint create_query() {
+    GLuint id = 0;
+    glCreateQueries(GL_TIMESTAMP, 1, &id);
+    return id;
+}
+
+}  // namespace
+
+TimestampQuery::TimestampQuery(const std::string& name) : handle_(create_query()) {
+    set_label(GL_QUERY, id(), name);
+}
+
+void TimestampQuery::record() {
+    glQueryCounter(id(), GL_TIMESTAMP);
+}
+
+bool TimestampQuery::is_ready() const {
+    GLint ready = GL_FALSE;
+    glGetQueryObjectiv(id(), GL_QUERY_RESULT_AVAILABLE, &ready);
+    return ready == GL_TRUE;
+}
+
+std::uint64_t TimestampQuery::read_ns() const {
+    GLuint64 time_ns = 0;
+    glGetQueryObjectui64v(id(), GL_QUERY_RESULT, &time_ns);
+    return time_ns;
+}
+
+}  // namespace tarn

@@ -1,0 +1,134 @@
+// Texture storage, uploads and clears.
+#include "gl/texture.h"
+
+#include <algorithm>
+
+namespace tarn {
+namespace {
+
+GLuint create_texture(GLenum target) {
+    GLuint id = 0;
+    glCreateTextures(target, 1, &id);
+    return id;
+}
+
+void check_extent(const std::string& name, int width_px, int height_px) {
+    const GLint64 limit = get_gl_limit(GL_MAX_TEXTURE_SIZE);
+    if (width_px < 1 || height_px < 1 || width_px > limit || height_px > limit)
+        throw Error("texture '{}' is {}x{} px, each side must be 1..{}", name, width_px, height_px, limit);
+}
+
+void set_sampling(GLuint id, GLint min_filter, GLint mag_filter, GLint wrap) {
+    glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, min_filter);
+    glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, mag_filter);
+    glTextureParameteri(id, GL_TEXTURE_WRAP_S, wrap);
+    glTextureParameteri(id, GL_TEXTURE_WRAP_T, wrap);
+}
+
+// Rows are tightly packed in client memory, whatever the size of a texel.
+void set_tight_rows() {
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+}
+
+// The base format without the order of channels: clears give all four, as GL drops those that do not exist.
+void clear_texture(const Texture2D& texture, GLenum format, GLenum type, const void* value) {
+    glClearTexImage(texture.id(), 0, texture.format().is_depth() ? GLenum(GL_DEPTH_COMPONENT) : format, type,
+                    value);
+}
+
+}  // namespace
+
+Texture2D::Texture2D(std::string name, int width_px, int height_px, GLenum internal_format)
+    : name_(std::move(name)),
+      width_px_(width_px),
+      height_px_(height_px),
+      format_(get_pixel_format(internal_format)),
+      handle_(create_texture(GL_TEXTURE_2D)) {
+    set_label(GL_TEXTURE, id(), name_);
+    check_extent(name_, width_px, height_px);
+    glTextureStorage2D(id(), 1, internal_format, width_px, height_px);
+    check_gl(fmt::format("texture '{}' of {}x{} px {}", name_, width_px, height_px, format_.name));
+    set_sampling(id(), GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE);
+}
+
+void Texture2D::clear(const glm::vec4& value) {
+    TARN_ASSERT(!format_.is_integer(), "texture '{}' has integer texels: clear it with integers", name_);
+    clear_texture(*this, GL_RGBA, GL_FLOAT, &value.x);
+}
+
+void Texture2D::clear(const glm::uvec4& value) {
+    TARN_ASSERT(format_.is_integer(), "texture '{}' has no integer texels: clear it with floats", name_);
+    clear_texture(*this, GL_RGBA_INTEGER, GL_UNSIGNED_INT, &value.x);
+}
+
+void Texture2D::clear(const glm::ivec4& value) {
+    TARN_ASSERT(format_.is_integer(), "texture '{}' has no integer texels: clear it with floats", name_);
+    clear_texture(*this, GL_RGBA_INTEGER, GL_INT, &value.x);
+}
+
+void Texture2D::upload_bytes(const void* bytes, std::size_t count_bytes) {
+    TARN_ASSERT(count_bytes == size_bytes(), "texture '{}' holds {} bytes, got {}", name_, size_bytes(),
+                count_bytes);
+    set_tight_rows();
+    glTextureSubImage2D(id(), 0, 0, 0, width_px_, height_px_, format_.format, format_.type, bytes);
+}
+
+void Texture2D::download_bytes(void* bytes) const {
+    set_tight_rows();
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+    glGetTextureImage(id(), 0, format_.format, format_.type, GLsizei(size_bytes()), bytes);
+}
+
+void Texture2D::bind_image(unsigned unit, GLenum access) const {
+    glBindImageTexture(unit, id(), 0, GL_FALSE, 0, access, format_.internal_format);
+}
+
+Texture2DArray::Texture2DArray(std::string name, int width_px, int height_px, int layer_count,
+                               int level_count, GLenum internal_format)
+    : name_(std::move(name)),
+      width_px_(width_px),
+      height_px_(height_px),
+      layer_count_(layer_count),
+      level_count_(level_count),
+      format_(get_pixel_format(internal_format)),
+      handle_(create_texture(GL_TEXTURE_2D_ARRAY)) {
+    set_label(GL_TEXTURE, id(), name_);
+    check_extent(name_, width_px, height_px);
+    const GLint64 layer_limit = get_gl_limit(GL_MAX_ARRAY_TEXTURE_LAYERS);
+    if (layer_count < 1 || layer_count > layer_limit)
+        throw Error("texture '{}' has {} layers, must be 1..{}", name_, layer_count, layer_limit);
+    glTextureStorage3D(id(), level_count, internal_format, width_px, height_px, layer_count);
+    check_gl(fmt::format("texture '{}' of {}x{} px {}, {} layers, {} levels", name_, width_px, height_px,
+                         format_.name, layer_count, level_count));
+    set_sampling(id(), format_.is_integer() ? GL_NEAREST_MIPMAP_NEAREST : GL_LINEAR_MIPMAP_LINEAR,
+                 format_.is_integer() ? GL_NEAREST : GL_LINEAR, GL_REPEAT);
+}
+
+void Texture2DArray::upload_bytes(int layer, int level, const void* bytes, std::size_t count_bytes) {
+    TARN_ASSERT(layer >= 0 && layer < layer_count_ && level >= 0 && level < level_count_,
+                "texture '{}' has no layer {} level {}", name_, layer, level);
+    const int width_px = std::max(width_px_ >> level, 1);
+    const int height_px = std::max(height_px_ >> level, 1);
+    TARN_ASSERT(count_bytes == std::size_t(width_px) * std::size_t(height_px) * format_.bytes,
+                "texture '{}' level {} is {}x{} px {}, got {} bytes", name_, level, width_px, height_px,
+                format_.name, count_bytes);
+    set_tight_rows();
+    glTextureSubImage3D(id(), level, 0, 0, layer, width_px, height_px, 1, format_.format, format_.type,
+                        bytes);
+}
+
+BufferTexture::BufferTexture(std::string name, const Buffer& buffer, GLenum format)
+    : name_(std::move(name)),
+      texel_count_(buffer.size_bytes() / get_pixel_format(format).bytes),
+      handle_(create_texture(GL_TEXTURE_BUFFER)) {
+    set_label(GL_TEXTURE, id(), name_);
+    const GLint64 limit = get_gl_limit(GL_MAX_TEXTURE_BUFFER_SIZE);
+    if (GLint64(texel_count_) > limit)
+        throw Error("buffer texture '{}' has {} texels, GL_MAX_TEXTURE_BUFFER_SIZE is {}", name_,
+                    texel_count_, limit);
+    glTextureBuffer(id(), format, buffer.id());
+    check_gl(fmt::format("buffer texture '{}' of format {}", name_, get_pixel_format(format).name));
+}
+
+}  // namespace tarn

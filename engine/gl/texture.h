@@ -1,0 +1,149 @@
+// GL textures: a screen-sized image, an array of mipmapped images, and a buffer read as texels.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "core/error.h"
+#include "gl/buffer.h"
+#include "gl/handle.h"
+#include "gl/pixel_format.h"
+
+namespace tarn {
+
+namespace detail {
+inline void delete_texture(GLuint id) {
+    glDeleteTextures(1, &id);
+}
+}  // namespace detail
+
+// A 2D image of one level, read with nearest filtering and clamped at its edges.
+class Texture2D {
+  public:
+    // An image of width x height px with undefined texels; Error for an empty one or one beyond the driver's
+    // limit.
+    Texture2D(std::string name, int width_px, int height_px, GLenum internal_format);
+
+    // Sets every texel: the first for float and normalized formats (depth: x), the others for integer
+    // formats.
+    void clear(const glm::vec4& value);
+    void clear(const glm::uvec4& value);
+    void clear(const glm::ivec4& value);
+
+    // Replaces all texels, row 0 first; `texels` holds exactly width * height texels in the format's own
+    // layout.
+    template <class T>
+    void upload(std::span<const T> texels) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        upload_bytes(texels.data(), texels.size_bytes());
+    }
+    template <class T>
+    void upload(const std::vector<T>& texels) {
+        upload(std::span<const T>(texels));
+    }
+
+    // Waits for the device and returns all texels, row 0 first. sizeof(T) divides the size of a texel: T may
+    // be a texel (vec4 of RGBA32F) or a channel (float of RGBA32F).
+    template <class T>
+    std::vector<T> download() const {
+        static_assert(std::is_trivially_copyable_v<T>);
+        TARN_ASSERT(format_.bytes % sizeof(T) == 0,
+                    "texture '{}' has {} bytes per texel, read in parts of {}", name_, format_.bytes,
+                    sizeof(T));
+        std::vector<T> texels(size_bytes() / sizeof(T));
+        download_bytes(texels.data());
+        return texels;
+    }
+
+    // Binds to texture unit `unit` (sampler2D, usampler2D).
+    void bind(unsigned unit) const { glBindTextureUnit(unit, id()); }
+    // Binds to image unit `unit` with `access` GL_READ_ONLY, GL_WRITE_ONLY or GL_READ_WRITE.
+    void bind_image(unsigned unit, GLenum access) const;
+
+    const std::string& name() const { return name_; }
+    int width_px() const { return width_px_; }
+    int height_px() const { return height_px_; }
+    const PixelFormat& format() const { return format_; }
+    std::size_t size_bytes() const {
+        return std::size_t(width_px_) * std::size_t(height_px_) * format_.bytes;
+    }
+    GLuint id() const { return handle_.id(); }
+
+  private:
+    void upload_bytes(const void* bytes, std::size_t count_bytes);
+    void download_bytes(void* bytes) const;
+
+    std::string name_;
+    int width_px_;
+    int height_px_;
+    PixelFormat format_;
+    Handle<detail::delete_texture> handle_;
+};
+
+// Images of one size with mip levels; repeated at the edges, filtered trilinearly.
+class Texture2DArray {
+  public:
+    // `layer_count` images of width x height px and `level_count` mip levels, undefined texels; Error beyond
+    // limits.
+    Texture2DArray(std::string name, int width_px, int height_px, int layer_count, int level_count,
+                   GLenum internal_format);
+
+    // Replaces one level of one layer, row 0 first; exactly as many texels as the level has.
+    template <class T>
+    void upload(int layer, int level, std::span<const T> texels) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        upload_bytes(layer, level, texels.data(), texels.size_bytes());
+    }
+
+    // Fills the smaller levels of all layers from level 0.
+    void generate_mipmaps() { glGenerateTextureMipmap(id()); }
+
+    // Binds to texture unit `unit` (sampler2DArray).
+    void bind(unsigned unit) const { glBindTextureUnit(unit, id()); }
+
+    const std::string& name() const { return name_; }
+    int width_px() const { return width_px_; }
+    int height_px() const { return height_px_; }
+    int layer_count() const { return layer_count_; }
+    int level_count() const { return level_count_; }
+    GLuint id() const { return handle_.id(); }
+
+  private:
+    void upload_bytes(int layer, int level, const void* bytes, std::size_t count_bytes);
+
+    std::string name_;
+    int width_px_;
+    int height_px_;
+    int layer_count_;
+    int level_count_;
+    PixelFormat format_;
+    Handle<detail::delete_texture> handle_;
+};
+
+// The memory of a buffer read as texels (samplerBuffer): on llvmpipe loads cost 5-20 times less than
+// storage-buffer loads. The buffer must outlive the texture.
+class BufferTexture {
+  public:
+    // The whole of `buffer` as texels of `format` (GL_RGBA32F, ...); Error beyond GL_MAX_TEXTURE_BUFFER_SIZE
+    // texels.
+    BufferTexture(std::string name, const Buffer& buffer, GLenum format);
+
+    // Binds to texture unit `unit` (samplerBuffer, usamplerBuffer).
+    void bind(unsigned unit) const { glBindTextureUnit(unit, id()); }
+
+    const std::string& name() const { return name_; }
+    std::size_t texel_count() const { return texel_count_; }
+    GLuint id() const { return handle_.id(); }
+
+  private:
+    std::string name_;
+    std::size_t texel_count_;
+    Handle<detail::delete_texture> handle_;
+};
+
+}  // namespace tarn

@@ -1,0 +1,90 @@
+// GL 4.5 core contexts: EGL without a window, a GLFW window, or OSMesa; everything else is the same for all
+// three.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "gl/debug_output.h"
+#include "gl/device_info.h"
+
+namespace tarn {
+
+class Window;
+
+enum class ContextKind {
+    EGL,     // no window: the headless default
+    GLFW,    // a window, visible or hidden
+    OSMESA,  // Mesa's off-screen library, loaded at run time: the fallback where EGL is missing
+};
+
+// "egl", "glfw" or "osmesa".
+const char* context_kind_name(ContextKind kind);
+
+// The kind of that name; Error for others.
+ContextKind parse_context_kind(const std::string& name);
+
+#ifdef NDEBUG
+inline constexpr bool DEBUG_CONTEXT_BY_DEFAULT = false;
+#else
+inline constexpr bool DEBUG_CONTEXT_BY_DEFAULT = true;
+#endif
+
+struct ContextOptions {
+    ContextKind kind = ContextKind::EGL;
+    int gl_threads = 0;                     // rasterizer threads of llvmpipe; 0: the driver's choice
+    bool debug = DEBUG_CONTEXT_BY_DEFAULT;  // record the driver's complaints: take_debug_errors()
+    std::string window_title = "Tarn";      // the rest is for GLFW
+    int window_width_px = 1280;
+    int window_height_px = 720;
+    bool window_visible = false;
+};
+
+// A context that is current on the thread that made it; destroy it on that thread, after all its GL objects.
+class Context {
+  public:
+    virtual ~Context();
+    Context(const Context&) = delete;
+    Context& operator=(const Context&) = delete;
+
+    // Makes this the current context of the calling thread and points the GL functions at its driver.
+    void make_current();
+
+    // The window of a GLFW context, null for the others.
+    virtual Window* window() { return nullptr; }
+
+    ContextKind kind() const { return kind_; }
+    const DeviceInfo& device_info() const { return device_info_; }
+
+  protected:
+    using GlFunction = void (*)();
+    using GetProcAddress = GlFunction (*)(const char*);
+
+    Context(ContextKind kind, GetProcAddress get_proc_address)
+        : kind_(kind), get_proc_address_(get_proc_address) {}
+
+    // The last step of each constructor: loads GL and checks that it is 4.5 core (Error with what was found).
+    void start(bool debug);
+    // The first step of each destructor, while the context still lives.
+    void stop();
+
+  private:
+    virtual void bind() = 0;
+
+    ContextKind kind_;
+    GetProcAddress get_proc_address_;
+    DeviceInfo device_info_;
+    std::unique_ptr<DebugOutput> debug_output_;
+};
+
+// Creates a context and makes it current. Error when there is none of that kind, or only an older GL.
+//
+// EGL: environment TARN_EGL_DEVICE=index takes that EGL device; else EGL_PLATFORM is obeyed when set; else
+// the first hardware device with GL 4.5 core, then Mesa's surfaceless software device, then whatever EGL
+// calls its default.
+//
+// gl_threads sets LP_NUM_THREADS while llvmpipe starts: N worker threads draw, while the calling thread
+// waits, so that N cores are busy. OSMesa starts llvmpipe once per process: its first context decides.
+std::unique_ptr<Context> create_context(const ContextOptions& options);
+
+}  // namespace tarn
