@@ -81,6 +81,28 @@ test_only_missing_packages_are_installed() {
     expect "updated first" "$(grep '^apt-get' "$SANDBOX/calls" | head -n 1 | grep -c ' update$')" 1
 }
 
+test_sudo_is_used_by_others_than_root() {
+    make_checkout
+    stand_in dpkg-query 'printf "installed one\n"; exit 1'
+    stand_in id 'echo 1000'
+    stand_in sudo '[[ $1 == -n ]] && shift; exec "$@"'
+    run_tool run info
+    expect "status" "$status" 7
+    expect "through sudo" "$(grep -c '^sudo env .* install --no-install-recommends two$' "$SANDBOX/calls")" 1
+}
+
+test_failed_installation_shows_its_error_and_ends() {
+    make_checkout
+    stand_in dpkg-query 'printf "installed one\n"; exit 1'
+    stand_in id 'echo 0'
+    stand_in apt-get 'echo "Reading package lists..."; echo "E: Unable to locate package two"; exit 100'
+    run_tool run info
+    expect "status" "$status" 1
+    expect "errors" "$(tail -n 2 <<<"$errors")" "E: Unable to locate package two
+tools/run: packages could not be installed; the whole log: $SANDBOX/root/build/packages.log"
+    expect "not built" "$(grep -c '^ninja' "$SANDBOX/calls")" 0
+}
+
 test_neither_root_nor_sudo_is_one_line() {
     make_checkout
     stand_in dpkg-query 'echo "installed one"; exit 1'
