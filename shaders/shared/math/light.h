@@ -17,6 +17,7 @@ CONSTANT uint LIGHT_TRIANGLE = 3u;
 CONSTANT uint LIGHT_KIND_MASK = 7u;
 CONSTANT uint LIGHT_DOUBLE_SIDED = 8u;  // a triangle that emits on both sides
 CONSTANT uint LIGHT_TEXTURED = 16u;     // radiance is scaled by the material's emission map
+CONSTANT uint LIGHT_MIRRORED = 32u;     // a triangle whose transform turned it inside out: its lit side is the other
 
 // The light index that stands for the environment map.
 CONSTANT uint LIGHT_ENVIRONMENT = 0xfffffffeu;
@@ -99,6 +100,7 @@ FN IncidentLight incident_from_triangle(Light light, vec2 barycentrics, vec3 rad
     if (normal_length == 0.0f || distance2 == 0.0f) return incident;
     float distance = sqrt(distance2);
     vec3 direction = to_light / distance;
+    if ((light.flags & LIGHT_MIRRORED) != 0u) normal = -normal;
     float cosine = -dot(normal, direction) / normal_length;
     if (cosine < 0.0f && (light.flags & LIGHT_DOUBLE_SIDED) == 0u) return incident;
     incident.direction = direction;

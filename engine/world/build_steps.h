@@ -1,0 +1,22 @@
+// The steps of build_world and update_world, in order. Private to this folder.
+#pragma once
+
+#include "world/world.h"
+
+namespace tarn {
+
+// geometry.cpp: meshes and vertices, then where the instances stand and the vertices of those that deform.
+void add_meshes(World& world, const Scene& scene);
+void place_instances(World& world, const Scene& scene, const Pose& pose);
+
+// materials.cpp
+void add_materials(World& world, const Scene& scene);
+
+// lights.cpp: punctual lights and emissive triangles, with their table by power.
+void rebuild_lights(World& world, const Scene& scene, const Pose& pose);
+
+// environment.cpp
+WorldEnvironment make_environment(const Image& radiance);
+WorldEnvironment make_even_sky();
+
+}  // namespace tarn
