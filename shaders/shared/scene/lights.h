@@ -53,6 +53,17 @@ FN vec3 load_triangle_radiance(Light light, vec2 barycentrics) {
     return light.radiance * vec3(sample_slot(load_slot(i.material, SLOT_EMISSION), extras.uv0, extras.uv1));
 }
 
+// Bound on the rounding error of a sample's position on its light, metres; 0 for lights without a surface.
+FN float load_light_error(LightSample drawn) {
+    if (drawn.light == INVALID_INDEX || drawn.light == LIGHT_ENVIRONMENT) return 0.0f;
+    Light light = load_light(drawn.light);
+    if ((light.flags & LIGHT_KIND_MASK) != LIGHT_TRIANGLE) return 0.0f;
+    InstanceRecord i = load_instance(light.instance);
+    uvec3 vertices = load_vertex_indices(i, light.primitive);
+    return position_error_bound(largest_absolute_term(i, load_position_os(vertices.x), load_position_os(vertices.y),
+                                                      load_position_os(vertices.z)));
+}
+
 // What `drawn` sends to `point`, before visibility.
 FN IncidentLight load_incident_light(LightSample drawn, vec3 point) {
     if (drawn.light == INVALID_INDEX) return no_incident_light();
