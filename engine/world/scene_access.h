@@ -31,8 +31,14 @@ class SceneAccess {
     uint get_light_count() const { return world_.lights.count; }
     uvec2 get_environment_size() const { return uvec2(world_.environment.width, world_.environment.height); }
 
-#undef FN
-#define FN inline
+    // On the CPU nothing is compiled out.
+    static constexpr bool SCENE_HAS_TEXTURES = true;
+    static constexpr bool SCENE_HAS_NORMAL_MAPS = true;
+    static constexpr bool SCENE_HAS_ENVIRONMENT = true;
+    static constexpr bool SCENE_HAS_PUNCTUAL_LIGHTS = true;
+    static constexpr bool SCENE_HAS_TRIANGLE_LIGHTS = true;
+    static constexpr bool SCENE_HAS_TEXTURED_LIGHTS = true;
+
 #include "shared/scene/surface.h"
 #include "shared/scene/lights.h"
 

@@ -1,5 +1,5 @@
-// The ray that asks whether a light sample reaches a point: both ends moved off their surfaces by the rounding error
-// of their positions.
+// The ray that asks whether a light sample reaches a point: both ends moved off their surfaces by the
+// rounding error of their positions.
 #pragma once
 
 #include "shared/dialect.h"
@@ -12,8 +12,9 @@ SHARED_BEGIN
 
 // The shadow ray from `p` to the sample `incident`, whose value must not be 0 (such a sample needs no ray).
 // `light_error` bounds the rounding error of the sample's position on its light, metres (load_light_error in
-// scene/lights.h; 0 for lights without a surface). Finite lights: direction = target - origin and max_t = 1; the sky
-// and directional lights: unit direction and max_t = RAY_INFINITY. Two places that touch get an inactive ray.
+// scene/lights.h; 0 for lights without a surface). Finite lights: direction = target - origin and max_t = 1;
+// the sky and directional lights: unit direction and max_t = RAY_INFINITY. Two places that touch get an
+// inactive ray.
 FN RayRecord make_shadow_ray(ShadingPoint p, IncidentLight incident, float light_error, uint pixel) {
     RayRecord ray = inactive_ray();
     ray.pixel = pixel;

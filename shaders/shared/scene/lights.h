@@ -3,6 +3,8 @@
 // Also needs, where it is included:
 //     uvec4 fetch_light_row(uint), uvec4 fetch_light_alias_row(uint), vec4 fetch_environment_texel(uint) (radiance, pmf),
 //     uvec4 fetch_environment_alias_row(uint), uint get_light_count(), uvec2 get_environment_size() (0 = no sky)
+// and the constants SCENE_HAS_ENVIRONMENT, SCENE_HAS_PUNCTUAL_LIGHTS, SCENE_HAS_TRIANGLE_LIGHTS,
+// SCENE_HAS_TEXTURED_LIGHTS.
 
 // Share of candidates that go to the environment where there are other lights too (Bitterli et al. 2020, section 5).
 CONSTANT_MEMBER float ENVIRONMENT_SHARE = 0.25f;
@@ -19,14 +21,19 @@ FN Light load_light(uint light) {
                         fetch_light_row(row + 3u));
 }
 
-FN bool has_environment() { return get_environment_size().x > 0u; }
+FN bool is_triangle(Light light) {
+    if (!SCENE_HAS_PUNCTUAL_LIGHTS) return true;
+    return SCENE_HAS_TRIANGLE_LIGHTS && (light.flags & LIGHT_KIND_MASK) == LIGHT_TRIANGLE;
+}
+
+FN bool has_environment() { return SCENE_HAS_ENVIRONMENT && get_environment_size().x > 0u; }
 
 // ---- Evaluation ---------------------------------------------------------------------------------------------------
 
 // Sky radiance along a unit direction; 0 without a sky.
 FN vec3 load_environment(vec3 direction) {
     uvec2 size = get_environment_size();
-    if (size.x == 0u) return vec3(0.0f);
+    if (!SCENE_HAS_ENVIRONMENT || size.x == 0u) return vec3(0.0f);
     TexelFootprint f = texel_footprint(environment_uv(direction), ivec2(int(size.x), int(size.y)), WRAP_REPEAT,
                                        WRAP_CLAMP, false);
     return vec3(fetch_environment_texel(f.indices.x)) * f.weights.x +
@@ -47,7 +54,7 @@ FN float environment_pdf_solid_angle(vec3 direction) {
 
 // Radiance that the triangle light emits at `barycentrics`, emission map included.
 FN vec3 load_triangle_radiance(Light light, vec2 barycentrics) {
-    if ((light.flags & LIGHT_TEXTURED) == 0u) return light.radiance;
+    if (!SCENE_HAS_TEXTURED_LIGHTS || (light.flags & LIGHT_TEXTURED) == 0u) return light.radiance;
     InstanceRecord i = load_instance(light.instance);
     VertexExtras extras = interpolate_extras(load_vertex_indices(i, light.primitive), barycentrics);
     return light.radiance * vec3(sample_slot(load_slot(i.material, SLOT_EMISSION), extras.uv0, extras.uv1));
@@ -67,7 +74,7 @@ FN float load_light_error(LightSample drawn) {
 // What `drawn` sends to `point`, before visibility.
 FN IncidentLight load_incident_light(LightSample drawn, vec3 point) {
     if (drawn.light == INVALID_INDEX) return no_incident_light();
-    if (drawn.light == LIGHT_ENVIRONMENT) {
+    if (SCENE_HAS_ENVIRONMENT && drawn.light == LIGHT_ENVIRONMENT) {
         IncidentLight sky = no_incident_light();
         sky.direction = decode_octahedral(drawn.uv);
         sky.distance = RAY_INFINITY;
@@ -75,7 +82,7 @@ FN IncidentLight load_incident_light(LightSample drawn, vec3 point) {
         return sky;
     }
     Light light = load_light(drawn.light);
-    if ((light.flags & LIGHT_KIND_MASK) == LIGHT_TRIANGLE) {
+    if (is_triangle(light)) {
         return incident_from_triangle(light, drawn.uv, load_triangle_radiance(light, drawn.uv), point);
     }
     return incident_from_punctual(light, point);
@@ -90,7 +97,7 @@ FN LightCandidate draw_on_light(uint index, float pmf, vec2 u) {
     c.drawn.uv = vec2(0.0f);
     c.pdf = pmf;
     Light light = load_light(index);
-    if ((light.flags & LIGHT_KIND_MASK) == LIGHT_TRIANGLE) {
+    if (is_triangle(light)) {
         c.drawn.uv = sample_triangle(u);
         c.pdf = ratio_or_zero(pmf, triangle_area(light));
     }

@@ -4,6 +4,8 @@
 // (lib/scene_buffers.glsl) and from vectors in C++, where it forms the body of a class (world/scene_access.h):
 //     uvec4 fetch_vertex_row(uint), uvec3 fetch_triangle(uint), uvec4 fetch_instance_row(uint),
 //     uvec4 fetch_material_row(uint), vec4 fetch_texel(uint)
+// and the constants SCENE_HAS_TEXTURES, SCENE_HAS_NORMAL_MAPS: what the scene lacks is compiled out, because a software
+// GPU runs both sides of a branch.
 
 FN InstanceRecord load_instance(uint instance) {
     uint row = instance * INSTANCE_ROWS;
@@ -58,7 +60,7 @@ FN vec2 slot_uv(SlotRecord slot, vec2 uv0, vec2 uv1) {
 
 // Value of a texture slot, linear; 1 where there is no texture.
 FN vec4 sample_slot(SlotRecord slot, vec2 uv0, vec2 uv1) {
-    if ((slot.flags & SLOT_PRESENT) == 0u) return vec4(1.0f);
+    if (!SCENE_HAS_TEXTURES || (slot.flags & SLOT_PRESENT) == 0u) return vec4(1.0f);
     ivec2 size = ivec2(int(slot.size & 0xffffu), int(slot.size >> 16u));
     TexelFootprint f = texel_footprint(slot_uv(slot, uv0, uv1), size, slot.flags & 3u, (slot.flags >> 2u) & 3u,
                                        (slot.flags & SLOT_NEAREST) != 0u);
@@ -157,6 +159,7 @@ FN float largest_absolute_term(InstanceRecord i, vec3 p0, vec3 p1, vec3 p2) {
 
 FN vec3 apply_normal_map(vec3 normal, InstanceRecord i, MaterialRecord m, uvec3 vertices, VertexExtras extras,
                          vec2 barycentrics) {
+    if (!SCENE_HAS_NORMAL_MAPS) return normal;
     SlotRecord slot = load_slot(i.material, SLOT_NORMAL);
     if ((slot.flags & SLOT_PRESENT) == 0u) return normal;
     vec4 t0 = row_xyzw(fetch_vertex_row(vertices.x * VERTEX_ROWS + 2u));
