@@ -26,21 +26,22 @@ struct CoverageKey {
     std::uint32_t ray = 0;  // RAY_CAMERA, RAY_SHADOW, ...
 };
 
-// Single-sided surfaces seen from behind: camera rays pass through them, as the rasterizer's do (glTF 2.0, 3.9.6);
-// all other rays meet them.
+// Single-sided surfaces seen from behind: camera rays pass through them, as the rasterizer's do
+// (glTF 2.0, 3.9.6); all other rays meet them.
 enum class BackFaces { HIT, PASS };
 
 struct RayBatchResult {
     std::uint64_t traced = 0;
-    std::uint64_t rejected = 0;  // not finite or without direction: answered "occluded", never given to the tracer
+    std::uint64_t rejected =
+        0;  // not finite or without direction: answered "occluded", never given to the tracer
 };
 
 class RayTracer {
   public:
     virtual ~RayTracer() = default;
 
-    // Follows the world: rebuilds meshes that deformed, moves instances. Must be called after the world changed and
-    // before the next ray. `world` must outlive the tracer.
+    // Follows the world: rebuilds meshes that deformed, moves instances. Must be called after the world
+    // changed and before the next ray. `world` must outlive the tracer.
     virtual void update(const World& world) = 0;
 
     // The nearest covered hit in (0, max_t), if any. Thread-safe.
@@ -50,14 +51,15 @@ class RayTracer {
     // Whether nothing covers (0, max_t). Thread-safe.
     virtual bool is_visible(const RayRecord& ray, const CoverageKey& key) const = 0;
 
-    // Traces a batch on the worker threads: `ray_rows` holds RAY_ROWS rows a ray, `visibility` gets 1 (nothing in the
-    // way, or inactive ray) or 0 a ray. Both may be memory that GL shares. Same answers for any number of threads.
+    // Traces a batch on the worker threads: `ray_rows` holds RAY_ROWS rows a ray, `visibility` gets 1
+    // (nothing in the way, or inactive ray) or 0 a ray. Both may be memory that GL shares. Same answers for
+    // any number of threads.
     RayBatchResult trace_visibility(std::span<const glm::uvec4> ray_rows, std::span<float> visibility,
                                     const CoverageKey& key) const;
 };
 
-// Worker threads for ray tracing and the reference: at most `threads` for the life of the returned object (0: one per
-// core). Sets flush-to-zero on each worker, as Embree advises.
+// Worker threads for ray tracing and the reference: at most `threads` for the life of the returned object (0:
+// one per core). Sets flush-to-zero on each worker, as Embree advises.
 class WorkerLimit {
   public:
     explicit WorkerLimit(int threads);
