@@ -8,8 +8,8 @@
 namespace tarn {
 
 struct Pose {
-    std::vector<glm::dmat4> world_from_node;          // per node
-    std::vector<std::vector<float>> morph_weights;    // per node; empty where the node has none
+    std::vector<glm::dmat4> world_from_node;        // per node
+    std::vector<std::vector<float>> morph_weights;  // per node; empty where the node has none
 };
 
 // The pose at `time_s`: every animation of the scene plays at once, each looping over its own duration.
@@ -23,8 +23,9 @@ struct DeformedMesh {
     std::vector<glm::vec4> tangents_os;
 };
 
-// Deforms `instance` on the CPU. For a skinned instance the result is in the space of `world_from_instance()`:
-// ws shifted by -origin_ws, so that single precision suffices far from the world's origin.
+// Deforms `instance` on the CPU. For a skinned instance the result is in the space of
+// `world_from_instance()`: ws shifted by -origin_ws, so that single precision suffices far from the world's
+// origin.
 DeformedMesh deform_mesh(const Scene& scene, const Instance& instance, const Pose& pose,
                          const glm::dvec3& origin_ws);
 

@@ -1,8 +1,8 @@
 // The scene as plain tables: what glTF said, checked, in linear units, with no rendering in it.
 //
-// Spaces: os = object space of a mesh, ns = space of a node's parent, ws = world space. Right-handed, +Y up, metres.
-// Node transforms are doubles, so that a scene 1e5 m from the origin keeps its millimetres; renderers work relative
-// to `World::origin_ws` (scene/world.h).
+// Spaces: os = object space of a mesh, ns = space of a node's parent, ws = world space. Right-handed, +Y up,
+// metres. Node transforms are doubles, so that a scene 1e5 m from the origin keeps its millimetres; renderers
+// work relative to `World::origin_ws` (scene/world.h).
 #pragma once
 
 #include <array>
@@ -43,7 +43,8 @@ struct Bounds {
     glm::dvec3 extent() const { return upper - lower; }
 };
 
-// ---- Geometry -------------------------------------------------------------------------------------------------------
+// ---- Geometry
+// -------------------------------------------------------------------------------------------------------
 
 // Displacements of one morph target; an empty vector means "none of this attribute".
 struct MorphTarget {
@@ -53,7 +54,8 @@ struct MorphTarget {
 };
 
 // One glTF primitive as an indexed triangle list. All attribute vectors are empty or as long as positions_os;
-// normals are never empty (generated flat where the file has none), tangents are filled where a normal map needs them.
+// normals are never empty (generated flat where the file has none), tangents are filled where a normal map
+// needs them.
 struct Mesh {
     std::string name;
     std::vector<glm::vec3> positions_os;
@@ -75,10 +77,11 @@ struct Mesh {
     bool deforms() const { return !morph_targets.empty() || influence_sets > 0; }
 };
 
-// ---- Materials and textures -----------------------------------------------------------------------------------------
+// ---- Materials and textures
+// -----------------------------------------------------------------------------------------
 
-// Texels as the renderer and the CPU both see them: RGBA, 16 bits each, unsigned normalized, LINEAR (sRGB decoded at
-// import), row 0 on top as in glTF.
+// Texels as the renderer and the CPU both see them: RGBA, 16 bits each, unsigned normalized, LINEAR (sRGB
+// decoded at import), row 0 on top as in glTF.
 struct TextureImage {
     std::string name;
     int width = 0;
@@ -95,7 +98,8 @@ struct Texture {
     bool nearest = false;  // magnification filter
 };
 
-// A texture as one material slot uses it (KHR_texture_transform included): uv' = offset + rotate(rotation) * scale * uv.
+// A texture as one material slot uses it (KHR_texture_transform included): uv' = offset + rotate(rotation) *
+// scale * uv.
 struct TextureSlot {
     TextureIndex texture;  // unset: no texture, value 1 (normal map: +Z)
     int uv_set = 0;        // 0 or 1
@@ -112,10 +116,10 @@ struct Material {
     float metallic = 1.0f;
     float roughness = 1.0f;
     float normal_scale = 1.0f;
-    float specular = 1.0f;               // KHR_materials_specular: scales dielectric F0 and F90
-    glm::vec3 specular_color{1.0f};      // KHR_materials_specular: tints dielectric F0
-    float ior = 1.5f;                    // KHR_materials_ior
-    glm::vec3 emission{0.0f};            // radiance, W sr^-1 m^-2: emissiveFactor * emissiveStrength
+    float specular = 1.0f;           // KHR_materials_specular: scales dielectric F0 and F90
+    glm::vec3 specular_color{1.0f};  // KHR_materials_specular: tints dielectric F0
+    float ior = 1.5f;                // KHR_materials_ior
+    glm::vec3 emission{0.0f};        // radiance, W sr^-1 m^-2: emissiveFactor * emissiveStrength
     AlphaMode alpha_mode = AlphaMode::OPAQUE;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
@@ -126,7 +130,8 @@ struct Material {
     TextureSlot emission_map;
 };
 
-// ---- Nodes, instances, skins ----------------------------------------------------------------------------------------
+// ---- Nodes, instances, skins
+// ----------------------------------------------------------------------------------------
 
 struct Transform {
     glm::dvec3 translation{0.0};
@@ -136,10 +141,10 @@ struct Transform {
 
 struct Node {
     std::string name;
-    NodeIndex parent;                    // unset for a root; a parent's index may be larger than its child's
-    Transform local;                     // rest pose; ignored where `matrix` is set
-    std::optional<glm::dmat4> matrix;    // ns_from_node, where the file gave a matrix instead of TRS
-    std::vector<float> morph_weights;    // rest weights of the node's mesh
+    NodeIndex parent;                  // unset for a root; a parent's index may be larger than its child's
+    Transform local;                   // rest pose; ignored where `matrix` is set
+    std::optional<glm::dmat4> matrix;  // ns_from_node, where the file gave a matrix instead of TRS
+    std::vector<float> morph_weights;  // rest weights of the node's mesh
     CameraIndex camera;
     LightIndex light;
 };
@@ -148,7 +153,8 @@ struct Node {
 struct Instance {
     MeshIndex mesh;
     NodeIndex node;
-    SkinIndex skin;  // set: the skin's joints place the vertices in ws and the node's own transform is ignored
+    SkinIndex
+        skin;  // set: the skin's joints place the vertices in ws and the node's own transform is ignored
 };
 
 struct Skin {
@@ -156,7 +162,8 @@ struct Skin {
     std::vector<glm::dmat4> joint_from_mesh;  // inverse bind matrices, as many as joints
 };
 
-// ---- Cameras and lights ---------------------------------------------------------------------------------------------
+// ---- Cameras and lights
+// ---------------------------------------------------------------------------------------------
 
 // Looks along its node's -Z, +Y up.
 struct Camera {
@@ -179,7 +186,8 @@ struct PunctualLight {
     double range_m = 0.0;  // 0: unlimited
 };
 
-// ---- Animation ------------------------------------------------------------------------------------------------------
+// ---- Animation
+// ------------------------------------------------------------------------------------------------------
 
 enum class Interpolation { STEP, LINEAR, CUBIC };
 enum class AnimatedProperty { TRANSLATION, ROTATION, SCALE, WEIGHTS };
@@ -189,7 +197,8 @@ struct AnimationChannel {
     AnimatedProperty property = AnimatedProperty::TRANSLATION;
     Interpolation interpolation = Interpolation::LINEAR;
     std::vector<float> times_s;  // strictly increasing
-    // [key][component], 3, 4 (xyzw) or target count components; CUBIC: [key][in tangent, value, out tangent][component]
+    // [key][component], 3, 4 (xyzw) or target count components; CUBIC: [key][in tangent, value, out
+    // tangent][component]
     std::vector<float> values;
     int components = 3;
 };
@@ -200,7 +209,8 @@ struct Animation {
     double duration_s = 0.0;
 };
 
-// ---- The whole ------------------------------------------------------------------------------------------------------
+// ---- The whole
+// ------------------------------------------------------------------------------------------------------
 
 struct Scene {
     std::string name;
