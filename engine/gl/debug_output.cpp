@@ -44,10 +44,7 @@ DebugOutput::DebugOutput() : messages_(std::make_unique<Messages>()) {
     glDebugMessageCallback(receive, messages_.get());
 }
 
-DebugOutput::~DebugOutput() {
-    glDebugMessageCallback(nullptr, nullptr);
-    glDisable(GL_DEBUG_OUTPUT);
-}
+DebugOutput::~DebugOutput() = default;
 
 std::vector<std::string> take_debug_errors() {
     void* user = nullptr;

@@ -7,7 +7,8 @@
 
 namespace tarn {
 
-// Listens to the current context's KHR_debug messages as long as it lives.
+// Listens to the KHR_debug messages of the context that is current when it is made; must outlive that
+// context.
 class DebugOutput {
   public:
     DebugOutput();

@@ -51,7 +51,8 @@ class SourceJoiner {
   public:
     SourceJoiner(const std::filesystem::path& root, std::span<const std::string> defines) : root_(root) {
         source_.files.push_back("<defines>");
-        source_.text = "#version 450 core\n#define TARN_GLSL 1\n";
+        append_line("#version 450 core", 0, 1);
+        append_line("#define TARN_GLSL 1", 0, 2);
         defined_.insert("TARN_GLSL");
         for (const std::string& define : defines) add_define(define);
     }
@@ -66,7 +67,7 @@ class SourceJoiner {
         const std::size_t equals = define.find('=');
         const std::string name = define.substr(0, equals);
         const std::string value = equals == std::string::npos ? "1" : define.substr(equals + 1);
-        source_.text += "#define " + name + " " + value + "\n";
+        append_line("#define " + name + " " + value, 0, int(source_.lines.size()) + 1);
         defined_.insert(name);
     }
 
@@ -78,7 +79,6 @@ class SourceJoiner {
         const std::size_t number = source_.files.size();
         source_.files.push_back(file);
         open_files_.push_back(file);
-        source_.text += fmt::format("#line 1 {}\n", number);
         std::vector<Branch> outer_branches = std::exchange(branches_, {});
         int line_number = 0;
         for (std::string line; std::getline(stream, line);) add_line(line, file, number, ++line_number);
@@ -91,13 +91,14 @@ class SourceJoiner {
         follow_branches(directive);
         if (directive.keyword == "include" && directive.argument.starts_with('"')) {
             if (is_active()) add_include(directive.argument, fmt::format("{}:{}: ", file, line_number));
-            source_.text += fmt::format("#line {} {}\n", line_number + 1, number);
-        } else if (directive.keyword == "pragma" && directive.argument == "once") {
-            source_.text += '\n';
-        } else {
-            source_.text += line;
-            source_.text += '\n';
+        } else if (directive.keyword != "pragma" || directive.argument != "once") {
+            append_line(line, number, line_number);
         }
+    }
+
+    void append_line(const std::string& line, std::size_t file, int line_number) {
+        source_.text += line + "\n";
+        source_.lines.push_back({file, line_number});
     }
 
     // Knows #ifdef and #ifndef; the branches of an #if are all taken for active.
@@ -148,20 +149,22 @@ class SourceJoiner {
     std::set<std::string> defined_;
 };
 
-std::string file_name(const ShaderSource& source, const std::string& number) {
-    const std::size_t index = std::strtoul(number.c_str(), nullptr, 10);
-    return index < source.files.size() ? source.files[index] : number;
+std::string describe_line(const ShaderSource& source, const std::string& number) {
+    const std::size_t index = std::strtoul(number.c_str(), nullptr, 10) - 1;
+    if (index >= source.lines.size()) return "line " + number;
+    const ShaderSource::Line& line = source.lines[index];
+    return fmt::format("{}:{}", source.files[line.file], line.number);
 }
 
 std::string translate_line(const ShaderSource& source, const std::string& line) {
-    static const std::regex MESA(R"(^(\d+):(\d+)\((\d+)\): *)");
-    static const std::regex NVIDIA(R"(^(\d+)\((\d+)\) *: *)");
+    static const std::regex MESA(R"(^\d+:(\d+)\((\d+)\): *)");
+    static const std::regex NVIDIA(R"(^\d+\((\d+)\) *: *)");
     std::smatch match;
     if (std::regex_search(line, match, MESA))
-        return fmt::format("{}:{}:{}: {}", file_name(source, match[1]), match[2].str(), match[3].str(),
+        return fmt::format("{}:{}: {}", describe_line(source, match[1]), match[2].str(),
                            match.suffix().str());
     if (std::regex_search(line, match, NVIDIA))
-        return fmt::format("{}:{}: {}", file_name(source, match[1]), match[2].str(), match.suffix().str());
+        return fmt::format("{}: {}", describe_line(source, match[1]), match.suffix().str());
     return line;
 }
 

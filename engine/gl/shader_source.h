@@ -9,11 +9,18 @@
 
 namespace tarn {
 
-// The text for glShaderSource. Source string number i of its #line directives is files[i]; 0 is the text that
-// we put before the first file: the version and the defines.
+// The text for glShaderSource and where its lines come from. A table, because #line is not enough: Mesa 22.3
+// names source string 0 in most messages, whatever #line said.
 struct ShaderSource {
+    // Line `number` (from 1) of files[file].
+    struct Line {
+        std::size_t file;
+        int number;
+    };
+
     std::string text;
-    std::vector<std::string> files;
+    std::vector<std::string> files;  // files[0] is "<defines>": the version and the defines
+    std::vector<Line> lines;         // of each line of `text`
 };
 
 // The file `root / file` after "#version 450 core", TARN_GLSL and `defines` ("NAME" or "NAME=VALUE").
@@ -23,7 +30,7 @@ struct ShaderSource {
 ShaderSource load_shader_source(const std::filesystem::path& root, const std::string& file,
                                 std::span<const std::string> defines);
 
-// The driver's log on one line, its "S:LINE(COLUMN)" (Mesa) and "S(LINE)" (NVIDIA) turned into "file:line";
+// The driver's log on one line, its "0:LINE(COLUMN)" (Mesa) and "0(LINE)" (NVIDIA) turned into "file:line";
 // messages beyond the eighth are counted.
 std::string translate_shader_log(const ShaderSource& source, std::string_view log);
 

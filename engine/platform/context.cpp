@@ -4,6 +4,7 @@
 #include <glad/gl.h>
 
 #include <optional>
+#include <utility>
 
 #include "core/error.h"
 #include "platform/backends.h"
@@ -11,6 +12,9 @@
 
 namespace tarn {
 namespace {
+
+// The context that Tarn made current on this thread.
+thread_local Context* current_context = nullptr;
 
 constexpr int MIN_GL_VERSION = GLAD_MAKE_VERSION(4, 5);
 
@@ -52,10 +56,19 @@ ContextKind parse_context_kind(const std::string& name) {
 
 Context::~Context() = default;
 
-// Each driver brings its own GL functions, so that a change of context means a change of functions.
+// EGL, GLX and OSMesa each believe to be alone in a thread: one must let go before the next takes hold. And
+// each brings its own GL functions.
 void Context::make_current() {
+    if (current_context != nullptr) std::exchange(current_context, nullptr)->unbind();
     bind();
+    current_context = this;
     load_gl(*this, get_proc_address_);
+}
+
+void Context::stop() {
+    if (current_context != this) return;
+    unbind();
+    current_context = nullptr;
 }
 
 void Context::start(bool debug) {
@@ -65,12 +78,6 @@ void Context::start(bool debug) {
         throw Error("Tarn needs OpenGL 4.5 core, the {} context offers a compatibility profile of {}",
                     context_kind_name(kind_), describe_gl());
     if (debug) debug_output_ = std::make_unique<DebugOutput>();
-}
-
-void Context::stop() {
-    if (debug_output_ == nullptr) return;
-    make_current();
-    debug_output_.reset();
 }
 
 std::unique_ptr<Context> create_context(const ContextOptions& options) {

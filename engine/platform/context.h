@@ -47,7 +47,8 @@ class Context {
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
 
-    // Makes this the current context of the calling thread and points the GL functions at its driver.
+    // Makes this the current context of the calling thread, in place of any other, and points the GL
+    // functions at its driver.
     void make_current();
 
     // The window of a GLFW context, null for the others.
@@ -65,11 +66,13 @@ class Context {
 
     // The last step of each constructor: loads GL and checks that it is 4.5 core (Error with what was found).
     void start(bool debug);
-    // The first step of each destructor, while the context still lives.
+    // The first step of each destructor: no context is current afterwards where this one was.
     void stop();
 
   private:
+    // Makes the context current where no other one is (Error when the driver refuses); the reverse.
     virtual void bind() = 0;
+    virtual void unbind() = 0;
 
     ContextKind kind_;
     GetProcAddress get_proc_address_;

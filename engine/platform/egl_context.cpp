@@ -115,6 +115,7 @@ class EglContext final : public Context {
             open(debug);
             start(debug);
         } catch (...) {
+            stop();
             close();
             throw;
         }
@@ -151,8 +152,6 @@ class EglContext final : public Context {
 
     void close() {
         if (!initialized_) return;
-        if (eglGetCurrentContext() == context_)
-            eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
         if (surface_ != EGL_NO_SURFACE) eglDestroySurface(display_, surface_);
         if (context_ != EGL_NO_CONTEXT) eglDestroyContext(display_, context_);
         if (--display_users(display_) == 0) eglTerminate(display_);
@@ -164,6 +163,8 @@ class EglContext final : public Context {
         if (!eglMakeCurrent(display_, surface_, surface_, context_))
             throw Error("the EGL context cannot be made current ({})", describe_error());
     }
+
+    void unbind() override { eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
 
     EGLConfig choose_config() const {
         const EGLint wanted[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, EGL_PBUFFER_BIT,

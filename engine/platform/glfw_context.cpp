@@ -58,6 +58,7 @@ class GlfwContext final : public Context {
         try {
             start(options.debug);
         } catch (...) {
+            stop();
             glfwDestroyWindow(window_.native_handle());
             throw;
         }
@@ -86,6 +87,8 @@ class GlfwContext final : public Context {
         if (glfwGetCurrentContext() != window_.native_handle())
             throw Error("the window's context cannot be made current ({})", describe_error());
     }
+
+    void unbind() override { glfwMakeContextCurrent(nullptr); }
 
     GlfwLibrary library_;
     Window window_;

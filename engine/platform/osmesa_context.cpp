@@ -60,14 +60,15 @@ class OsmesaContext final : public Context {
         try {
             start(debug);
         } catch (...) {
-            close();
+            stop();
+            library_.destroy_context(context_);
             throw;
         }
     }
 
     ~OsmesaContext() override {
         stop();
-        close();
+        library_.destroy_context(context_);
     }
 
   private:
@@ -99,10 +100,7 @@ class OsmesaContext final : public Context {
             throw Error("the OSMesa context cannot be made current");
     }
 
-    void close() {
-        library_.make_current(nullptr, nullptr, 0, 0, 0);
-        library_.destroy_context(context_);
-    }
+    void unbind() override { library_.make_current(nullptr, nullptr, 0, 0, 0); }
 
     // OSMesa insists on a colour buffer, in memory of ours; Tarn draws into framebuffers of its own.
     static constexpr int SIDE_PX = 4;
