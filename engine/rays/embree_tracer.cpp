@@ -69,10 +69,11 @@ void fill_ray(RTCRay& target, const RayRecord& ray) {
     target.flags = 0;
 }
 
-// Whether Embree can take a ray into the instance's object space.
+// Whether Embree can take a ray into the instance's object space without losing its digits.
 bool is_invertible(const glm::mat4& world_from_object) {
-    const glm::mat3 inverse = glm::inverse(glm::mat3(world_from_object));
-    return is_finite3(inverse[0]) && is_finite3(inverse[1]) && is_finite3(inverse[2]);
+    const glm::dmat3 m(world_from_object);
+    const double longest = glm::length(m[0]) * glm::length(m[1]) * glm::length(m[2]);
+    return std::abs(glm::determinant(m)) > 1e-5 * longest;
 }
 
 class EmbreeTracer : public RayTracer {
