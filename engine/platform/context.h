@@ -86,8 +86,12 @@ class Context {
 // the first hardware device with GL 4.5 core, then Mesa's surfaceless software device, then whatever EGL
 // calls its default.
 //
-// gl_threads sets LP_NUM_THREADS while llvmpipe starts: N worker threads draw, while the calling thread
-// waits, so that N cores are busy. OSMesa starts llvmpipe once per process: its first context decides.
+// gl_threads = N sets LP_NUM_THREADS=N while llvmpipe starts: N workers shade and rasterize while the calling
+// thread sleeps in its wait. Measured with Mesa 22.3.6 on two cores, processor time over wall time of a heavy
+// compute shader and of a draw of 180 k small triangles: N = 1: 1.00 and 1.01; N = 2: 1.98 and 1.45 (vertices
+// and binning stay on the calling thread). So 1 is a true limit of one core; Mesa's own LP_NUM_THREADS=0,
+// everything on the calling thread, is as fast as 1. OSMesa starts llvmpipe once per process: its first
+// context decides.
 std::unique_ptr<Context> create_context(const ContextOptions& options);
 
 }  // namespace tarn

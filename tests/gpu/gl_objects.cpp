@@ -331,7 +331,7 @@ TEST_F(GlObjects, TimestampsFollowTheWork) {
     times[0].record();
     dispatch(program, 256);
     times[1].record();
-    program.set("steps", 2000);
+    program.set("steps", 6000);
     dispatch(program, 256);
     times[2].record();
     const std::uint64_t end_ns = times[2].read_ns();
