@@ -159,6 +159,17 @@ std::size_t accessor_count(const GltfDocument& document, int accessor) {
     return accessor_at(document, accessor).count;
 }
 
+bool has_data(const GltfDocument& document, int accessor) {
+    const tinygltf::Accessor& source = accessor_at(document, accessor);
+    const auto view_has_data = [&](int view) {
+        const int buffer = document.model.bufferViews[std::size_t(view)].buffer;
+        return view == document.no_data_view || !document.model.buffers[std::size_t(buffer)].data.empty();
+    };
+    if (!view_has_data(source.bufferView)) return false;
+    return !source.sparse.isSparse || (view_has_data(source.sparse.indices.bufferView) &&
+                                       view_has_data(source.sparse.values.bufferView));
+}
+
 std::size_t accessor_components(const GltfDocument& document, int accessor) {
     return layout_at(document, accessor).component_count;
 }

@@ -14,6 +14,9 @@ namespace tarn {
 // Elements of one accessor.
 std::size_t accessor_count(const GltfDocument& document, int accessor);
 
+// False where the accessor reads from a buffer that came without bytes (glTF leaves those to extensions).
+bool has_data(const GltfDocument& document, int accessor);
+
 // Components per element: 1 to 4, 9 or 16.
 std::size_t accessor_components(const GltfDocument& document, int accessor);
 

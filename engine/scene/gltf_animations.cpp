@@ -29,8 +29,8 @@ std::vector<float> read_times(const GltfDocument& document, int accessor, const 
     std::vector<float> times_s = read_elements<float>(document, accessor, label + " input");
     if (times_s.empty()) throw Error("{}: there are no key frames", label);
     for (std::size_t i = 1; i < times_s.size(); ++i) {
-        if (times_s[i] <= times_s[i - 1]) {
-            throw Error("{}: key {} is at {} s, not after key {} at {} s", label, i, times_s[i], i - 1,
+        if (times_s[i] < times_s[i - 1]) {
+            throw Error("{}: key {} is at {} s, before key {} at {} s", label, i, times_s[i], i - 1,
                         times_s[i - 1]);
         }
     }
@@ -65,6 +65,21 @@ void read_values(const GltfDocument& document, const Scene& scene, int accessor,
     read_floats(document, accessor, channel.values);
 }
 
+// Of keys at the same time the last one counts.
+void drop_repeated_keys(AnimationChannel& channel) {
+    const std::size_t key_size = channel.values.size() / channel.times_s.size();
+    std::size_t kept = 0;
+    for (std::size_t key = 0; key < channel.times_s.size(); ++key) {
+        if (kept > 0 && channel.times_s[key] == channel.times_s[kept - 1]) --kept;
+        channel.times_s[kept] = channel.times_s[key];
+        const auto from = channel.values.begin() + std::ptrdiff_t(key * key_size);
+        std::copy_n(from, key_size, channel.values.begin() + std::ptrdiff_t(kept * key_size));
+        ++kept;
+    }
+    channel.times_s.resize(kept);
+    channel.values.resize(kept * key_size);
+}
+
 // Checks every channel, also those that move nothing that is shown.
 AnimationChannel read_channel(const GltfDocument& document, const Scene& scene,
                               const tinygltf::Animation& animation, const tinygltf::AnimationChannel& source,
@@ -80,6 +95,7 @@ AnimationChannel read_channel(const GltfDocument& document, const Scene& scene,
     }
     channel.times_s = read_times(document, sampler.input, label);
     read_values(document, scene, sampler.output, label, channel);
+    drop_repeated_keys(channel);
     return channel;
 }
 
@@ -95,6 +111,12 @@ void add_animations(GltfDocument& document, Scene& scene) {
             const auto property = property_of(source.channels[k].target_path);
             if (source.channels[k].target_node < 0 || !property) {
                 document.warn(label + " moves nothing that is supported, it is ignored");
+                continue;
+            }
+            const tinygltf::AnimationSampler& sampler =
+                source.samplers[std::size_t(source.channels[k].sampler)];
+            if (!has_data(document, sampler.input) || !has_data(document, sampler.output)) {
+                document.warn(label + " reads a buffer without data, it is ignored");
                 continue;
             }
             AnimationChannel channel =

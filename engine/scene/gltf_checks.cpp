@@ -24,10 +24,10 @@ void check_buffer_views(const GltfDocument& document) {
 }
 
 void check_range(const GltfDocument& document, int view_index, std::size_t offset, std::size_t count,
-                 std::size_t stride, std::size_t element_bytes, const std::string& name) {
+                 std::size_t stride, std::size_t used_bytes, const std::string& name) {
     const tinygltf::BufferView& view = document.model.bufferViews[std::size_t(view_index)];
     if (count == 0) return;
-    const std::size_t needed = offset + (count - 1) * stride + element_bytes;
+    const std::size_t needed = offset + (count - 1) * stride + used_bytes;
     if (needed > view.byteLength) {
         throw Error("{} reads {} elements up to byte {}, bufferViews[{}] has {} bytes", name, count, needed,
                     view_index, view.byteLength);
@@ -48,8 +48,7 @@ void check_sparse(const GltfDocument& document, const tinygltf::Accessor& access
     check_range(document, sparse.indices.bufferView, std::size_t(sparse.indices.byteOffset),
                 std::size_t(sparse.count), index_bytes, index_bytes, name + ".sparse.indices");
     check_range(document, sparse.values.bufferView, std::size_t(sparse.values.byteOffset),
-                std::size_t(sparse.count), layout.element_bytes, layout.element_bytes,
-                name + ".sparse.values");
+                std::size_t(sparse.count), layout.element_bytes, layout.used_bytes, name + ".sparse.values");
 }
 
 void check_accessors(const GltfDocument& document) {
@@ -70,7 +69,7 @@ void check_accessors(const GltfDocument& document) {
                             accessor.bufferView, stride, name, layout.element_bytes);
             }
             check_range(document, accessor.bufferView, accessor.byteOffset, accessor.count, stride,
-                        layout.element_bytes, name);
+                        layout.used_bytes, name);
         }
         if (accessor.sparse.isSparse) check_sparse(document, accessor, layout, name);
     }
@@ -153,9 +152,13 @@ ElementLayout layout_of(const tinygltf::Accessor& accessor, const std::string& n
         std::size_t(tinygltf::GetComponentSizeInBytes(std::uint32_t(accessor.componentType)));
     layout.component_count = std::size_t(tinygltf::GetNumComponentsInType(std::uint32_t(accessor.type)));
     layout.element_bytes = layout.component_bytes * layout.component_count;
-    if (accessor.type == TINYGLTF_TYPE_MAT2 && layout.component_bytes == 1) layout.element_bytes = 8;
-    if (accessor.type == TINYGLTF_TYPE_MAT3 && layout.component_bytes == 1) layout.element_bytes = 12;
-    if (accessor.type == TINYGLTF_TYPE_MAT3 && layout.component_bytes == 2) layout.element_bytes = 24;
+    layout.used_bytes = layout.element_bytes;
+    const bool is_matrix = accessor.type == TINYGLTF_TYPE_MAT2 || accessor.type == TINYGLTF_TYPE_MAT3;
+    if (!is_matrix) return layout;
+    const std::size_t side = accessor.type == TINYGLTF_TYPE_MAT2 ? 2 : 3;
+    const std::size_t column_bytes = (side * layout.component_bytes + 3) / 4 * 4;
+    layout.element_bytes = side * column_bytes;
+    layout.used_bytes = (side - 1) * column_bytes + side * layout.component_bytes;
     return layout;
 }
 

@@ -13,7 +13,8 @@ void check_gltf_document(const GltfDocument& document);
 struct ElementLayout {
     std::size_t component_bytes = 0;
     std::size_t component_count = 0;
-    std::size_t element_bytes = 0;  // matrix columns of small types are padded to 4 bytes
+    std::size_t element_bytes = 0;  // matrix columns of small types start at multiples of 4 bytes
+    std::size_t used_bytes = 0;     // element_bytes without padding at its end
 };
 
 // Throws Error for a component type or element type that glTF does not have.

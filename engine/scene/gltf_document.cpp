@@ -5,8 +5,12 @@
 // images are decoded only where a material needs them.
 #include "scene/gltf_document.h"
 
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "core/error.h"
 #include "scene/gltf_checks.h"
@@ -49,6 +53,23 @@ Json take(Json& root, const char* name) {
     Json taken = root.contains(name) ? std::move(root[name]) : Json::array();
     root.erase(name);
     return taken;
+}
+
+// Unknown element types are allowed, to be used by extensions; here they are accessors without elements.
+void replace_unknown_types(Json& root, std::vector<std::string>& warnings) {
+    constexpr std::array<std::string_view, 7> KNOWN = {"SCALAR", "VEC2", "VEC3", "VEC4",
+                                                       "MAT2",   "MAT3", "MAT4"};
+    if (!root.contains("accessors")) return;
+    Json& accessors = root["accessors"];
+    for (std::size_t i = 0; i < accessors.size(); ++i) {
+        const std::string type = accessors[i]["type"].get<std::string>();
+        if (std::find(KNOWN.begin(), KNOWN.end(), type) != KNOWN.end()) continue;
+        warnings.push_back(
+            fmt::format("accessors[{}].type '{}' is unknown, the accessor is taken as empty", i, type));
+        accessors[i]["type"] = "SCALAR";
+        accessors[i]["count"] = 0;
+        accessors[i].erase("sparse");
+    }
 }
 
 // tinygltf refuses index accessors without a buffer view, which the specification allows (zeros, or sparse).
@@ -149,6 +170,7 @@ GltfDocument load_gltf_document(const std::filesystem::path& path) {
     document.path = path;
     const Json buffers = take(root, "buffers");
     const Json images = take(root, "images");
+    replace_unknown_types(root, document.warnings);
     document.no_data_view = add_no_data_view(root);
     document.model = parse_model(root);
     load_buffers(document, buffers, container);

@@ -9,6 +9,7 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <string_view>
 
 #include "core/error.h"
 #include "scene/gltf_uri.h"
@@ -71,6 +72,19 @@ bool is_jpeg(Bytes bytes) {
     return bytes.size() > 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff;
 }
 
+bool starts_with(Bytes bytes, std::size_t offset, std::string_view text) {
+    return bytes.size() >= offset + text.size() &&
+           std::equal(text.begin(), text.end(), bytes.begin() + long(offset));
+}
+
+// The name of a format that only an extension brings into glTF; null for any other.
+const char* extension_format(Bytes bytes) {
+    if (starts_with(bytes, 1, "KTX ")) return "KTX";
+    if (starts_with(bytes, 0, "RIFF") && starts_with(bytes, 8, "WEBP")) return "WebP";
+    if (starts_with(bytes, 0, "DDS ")) return "DDS";
+    return nullptr;
+}
+
 void check_claimed_size(Bytes bytes, int width, int height) {
     if (width < 1 || height < 1 || width > MAX_SIDE_PX || height > MAX_SIDE_PX) {
         throw Error("is {}x{} pixels, the limit is {}x{}", width, height, MAX_SIDE_PX, MAX_SIDE_PX);
@@ -82,6 +96,8 @@ void check_claimed_size(Bytes bytes, int width, int height) {
 }
 
 TextureImage decode_image(Bytes bytes, TexelEncoding encoding) {
+    if (bytes.size() > MAX_IMAGE_BYTES)
+        throw Error("has {} bytes, the limit is {}", bytes.size(), MAX_IMAGE_BYTES);
     if (!is_png(bytes) && !is_jpeg(bytes)) throw Error("is neither PNG nor JPEG ({} bytes)", bytes.size());
     const int size = int(bytes.size());
     TextureImage image;
@@ -104,23 +120,24 @@ TextureImage decode_image(Bytes bytes, TexelEncoding encoding) {
     return image;
 }
 
-// The picture file itself; `storage` keeps what is not in a buffer.
+// The picture file itself, empty where there is none; `storage` keeps what is not in a buffer.
 Bytes image_bytes(const GltfDocument& document, const tinygltf::Image& image,
                   std::vector<std::uint8_t>& storage) {
     if (image.bufferView >= 0) {
         const tinygltf::BufferView& view = document.model.bufferViews[std::size_t(image.bufferView)];
         const tinygltf::Buffer& buffer = document.model.buffers[std::size_t(view.buffer)];
-        if (buffer.data.empty()) throw Error("lies in buffers[{}], which has no data", view.buffer);
+        if (buffer.data.empty()) return {};
         return Bytes(buffer.data).subspan(view.byteOffset, view.byteLength);
     }
-    if (image.uri.empty()) throw Error("has neither uri nor bufferView");
-    storage = load_uri(image.uri, document.path.parent_path(), MAX_IMAGE_BYTES);
+    const std::filesystem::path folder = document.path.parent_path();
+    if (image.uri.empty() || is_missing_file(image.uri, folder)) return {};
+    storage = load_uri(image.uri, folder, MAX_IMAGE_BYTES);
     return storage;
 }
 
 }  // namespace
 
-TextureImage load_gltf_image(const GltfDocument& document, int index, TexelEncoding encoding) {
+std::optional<TextureImage> load_gltf_image(GltfDocument& document, int index, TexelEncoding encoding) {
     const tinygltf::Image& source = document.model.images[std::size_t(index)];
     const bool is_file = !source.uri.empty() && !is_data_uri(source.uri);
     const std::string label =
@@ -128,8 +145,15 @@ TextureImage load_gltf_image(const GltfDocument& document, int index, TexelEncod
     try {
         std::vector<std::uint8_t> storage;
         const Bytes bytes = image_bytes(document, source, storage);
-        if (bytes.size() > MAX_IMAGE_BYTES)
-            throw Error("has {} bytes, the limit is {}", bytes.size(), MAX_IMAGE_BYTES);
+        if (bytes.empty()) {
+            document.warn(label + " is not there, it is ignored");
+            return std::nullopt;
+        }
+        if (const char* format = extension_format(bytes)) {
+            document.warn(
+                fmt::format("{} is a {} image, which is not supported: it is ignored", label, format));
+            return std::nullopt;
+        }
         TextureImage image = decode_image(bytes, encoding);
         image.name = !source.name.empty() ? source.name
                      : is_file            ? source.uri

@@ -125,7 +125,7 @@ class TextureTable {
   public:
     TextureTable(GltfDocument& document, Scene& scene) : document_(document), scene_(scene) {}
 
-    // The scene's texture for a texture of the file; unset where it has no image that can be read.
+    // The scene's texture for a texture of the file; unset where its image is of no format that is read.
     TextureIndex find_or_add(int texture, TexelEncoding encoding) {
         const auto [entry, is_new] = textures_.try_emplace({texture, encoding});
         if (is_new) entry->second = add(texture, encoding);
@@ -143,6 +143,7 @@ class TextureTable {
         }
         Texture texture;
         texture.image = find_or_add_image(source.source, encoding);
+        if (!texture.image.is_set()) return {};
         if (source.sampler >= 0) {
             const tinygltf::Sampler& sampler = document_.model.samplers[std::size_t(source.sampler)];
             texture.wrap_u = wrap_of(sampler.wrapS);
@@ -153,11 +154,13 @@ class TextureTable {
         return TextureIndex(scene_.textures.size() - 1);
     }
 
+    // Unset for an image of a format that is ignored.
     ImageIndex find_or_add_image(int index, TexelEncoding encoding) {
         const auto [entry, is_new] = images_.try_emplace({index, encoding});
-        if (is_new) {
-            scene_.images.push_back(load_gltf_image(document_, index, encoding));
-            entry->second = ImageIndex(scene_.images.size() - 1);
+        if (!is_new) return entry->second;
+        if (auto image = load_gltf_image(document_, index, encoding)) {
+            entry->second = ImageIndex(scene_.images.size());
+            scene_.images.push_back(std::move(*image));
         }
         return entry->second;
     }

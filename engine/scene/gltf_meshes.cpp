@@ -188,6 +188,16 @@ void compute_mesh_bounds(Mesh& mesh) {
     for (const glm::vec3& position : mesh.positions_os) mesh.bounds_os.add(glm::dvec3(position));
 }
 
+std::vector<int> accessors_of(const tinygltf::Primitive& primitive) {
+    std::vector<int> accessors;
+    for (const auto& [name, accessor] : primitive.attributes) accessors.push_back(accessor);
+    for (const Attributes& target : primitive.targets) {
+        for (const auto& [name, accessor] : target) accessors.push_back(accessor);
+    }
+    if (primitive.indices >= 0) accessors.push_back(primitive.indices);
+    return accessors;
+}
+
 class MeshReader {
   public:
     MeshReader(GltfDocument& document, Scene& scene) : document_(document), scene_(scene) {}
@@ -198,7 +208,7 @@ class MeshReader {
         for (std::size_t p = 0; p < source.primitives.size(); ++p) {
             const std::string label = fmt::format("meshes[{}].primitives[{}]", index, p);
             try {
-                if (!has_area(source.primitives[p], label)) continue;
+                if (!can_read(source.primitives[p], label)) continue;
                 Mesh mesh = read_primitive(source.primitives[p]);
                 if (mesh.triangles.empty()) continue;
                 mesh.name = source.name.empty() ? fmt::format("mesh {}", index) : source.name;
@@ -212,7 +222,8 @@ class MeshReader {
     }
 
   private:
-    bool has_area(const tinygltf::Primitive& primitive, const std::string& label) {
+    // False, and a warning, for what is valid but shows nothing.
+    bool can_read(const tinygltf::Primitive& primitive, const std::string& label) {
         if (primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
             throw Error("mode is {}, 0 to 6 is allowed", primitive.mode);
         if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
@@ -221,6 +232,12 @@ class MeshReader {
         }
         if (!primitive.attributes.contains("POSITION")) {
             document_.warn(label + " has no POSITION, it is skipped");
+            return false;
+        }
+        for (const int accessor : accessors_of(primitive)) {
+            if (has_data(document_, accessor)) continue;
+            document_.warn(fmt::format("{} reads accessors[{}], whose buffer has no data: it is skipped",
+                                       label, accessor));
             return false;
         }
         return true;

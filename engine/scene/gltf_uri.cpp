@@ -56,6 +56,13 @@ bool has_scheme(std::string_view uri) {
     return colon != std::string_view::npos && uri.find('/') > colon;
 }
 
+std::string relative_path(const std::string& uri) {
+    if (uri.empty()) throw Error("URI is empty");
+    const std::string relative = decode_percent(uri);
+    if (relative.find('\0') != std::string::npos) throw Error("URI '{}' holds a zero byte", shorten(uri));
+    return relative;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> read_file_bytes(const std::filesystem::path& path, std::uint64_t limit_bytes) {
@@ -106,14 +113,18 @@ std::vector<std::uint8_t> decode_data_uri(std::string_view uri) {
     return {text.begin(), text.end()};
 }
 
+bool is_missing_file(const std::string& uri, const std::filesystem::path& folder) {
+    if (is_data_uri(uri) || has_scheme(uri)) return false;
+    std::error_code code;
+    return std::filesystem::status(folder / relative_path(uri), code).type() ==
+           std::filesystem::file_type::not_found;
+}
+
 std::vector<std::uint8_t> load_uri(const std::string& uri, const std::filesystem::path& folder,
                                    std::uint64_t limit_bytes) {
     if (is_data_uri(uri)) return decode_data_uri(uri);
-    if (uri.empty()) throw Error("URI is empty");
     if (has_scheme(uri)) throw Error("URI '{}' is neither a data URI nor a relative path", shorten(uri));
-    const std::string relative = decode_percent(uri);
-    if (relative.find('\0') != std::string::npos) throw Error("URI '{}' holds a zero byte", shorten(uri));
-    return read_file_bytes(folder / relative, limit_bytes);
+    return read_file_bytes(folder / relative_path(uri), limit_bytes);
 }
 
 }  // namespace tarn

@@ -52,8 +52,9 @@ class Groups {
 
     // The smaller root wins, so that the result does not depend on the order of the unions.
     void join(std::uint32_t a, std::uint32_t b) {
-        const auto [low, high] = std::minmax(root(a), root(b));
-        parent_[high] = low;
+        const std::uint32_t root_a = root(a);
+        const std::uint32_t root_b = root(b);
+        parent_[std::max(root_a, root_b)] = std::min(root_a, root_b);
     }
 
   private:
