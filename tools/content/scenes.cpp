@@ -12,6 +12,7 @@ struct Entry {
 };
 
 constexpr Entry ENTRIES[] = {
+    {"lantern_court", build_lantern_court},
     {"cornell", build_cornell},
     {"furnace", build_furnace},
     {"furnace_ggx", build_furnace_ggx},

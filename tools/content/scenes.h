@@ -21,6 +21,7 @@ std::vector<std::string> list_scenes();
 // a count out of range.
 std::string generate_scene(const std::string& name, const SceneOptions& options);
 
+void build_lantern_court(GltfWriter& writer, const SceneOptions& options);
 void build_cornell(GltfWriter& writer, const SceneOptions& options);
 void build_furnace(GltfWriter& writer, const SceneOptions& options);
 void build_furnace_ggx(GltfWriter& writer, const SceneOptions& options);

@@ -73,6 +73,23 @@ Shape make_tapered_box(const glm::vec3& size, float top_scale) {
     return shape;
 }
 
+Shape make_extrusion(const std::vector<glm::vec2>& outline, float depth) {
+    Shape shape;
+    std::vector<glm::vec3> front, back;
+    for (const glm::vec2& p : outline) {
+        front.emplace_back(p, 0.5f * depth);
+        back.emplace(back.begin(), p, -0.5f * depth);
+    }
+    append_polygon(shape, front);
+    append_polygon(shape, back);
+    const std::size_t count = outline.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t next = (i + 1) % count;
+        append_polygon(shape, {front[next], front[i], back[count - 1 - i], back[count - 1 - next]});
+    }
+    return shape;
+}
+
 Shape make_arch(const ArchSize& size) {
     const float outer = 0.5f * size.width, inner = 0.5f * size.opening_width, z = 0.5f * size.depth;
     const float spring = size.spring_height, height = size.height;
@@ -94,6 +111,8 @@ Shape make_arch(const ArchSize& size) {
         across({-outer, low}, {-outer, high});
         across({outer, high}, {outer, low});
     }
+    across({-inner, 0}, {-outer, 0});
+    across({outer, 0}, {inner, 0});
     across({-inner, spring}, {-inner, 0});
     across({inner, 0}, {inner, spring});
     const auto on_round = [&](int i) {

@@ -31,6 +31,9 @@ Shape make_box(const glm::vec3& lower, const glm::vec3& upper);
 // Box whose top is `top_scale` times as wide as its bottom, standing on y = 0, centred.
 Shape make_tapered_box(const glm::vec3& size, float top_scale);
 
+// Convex outline in the xy plane, counter-clockwise, made `depth` thick along z around z = 0.
+Shape make_extrusion(const std::vector<glm::vec2>& outline, float depth);
+
 // Sphere around the origin; uv spans 0..1.
 Shape make_sphere(float radius, int segments, int rings);
 
