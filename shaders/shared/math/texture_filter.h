@@ -31,10 +31,11 @@ FN int wrap_texel(int coordinate, int size, uint wrap) {
 // uv: (0,0) is the upper left corner of the upper left texel. Values far outside float's exact integers are folded
 // first, so that a wild coordinate gives some texel instead of undefined behaviour.
 FN TexelFootprint texel_footprint(vec2 uv, ivec2 size, uint wrap_u, uint wrap_v, bool nearest) {
-    float x = clamp(uv.x * float(size.x), -8388608.0f, 8388608.0f);
-    float y = clamp(uv.y * float(size.y), -8388608.0f, 8388608.0f);
-    if (!(x == x)) x = 0.0f;
-    if (!(y == y)) y = 0.0f;
+    float x = uv.x * float(size.x);
+    float y = uv.y * float(size.y);
+    // Before the clamp, whose answer to NaN differs from one driver to the next.
+    x = is_finite(x) ? clamp(x, -8388608.0f, 8388608.0f) : 0.0f;
+    y = is_finite(y) ? clamp(y, -8388608.0f, 8388608.0f) : 0.0f;
     if (!nearest) {
         x -= 0.5f;
         y -= 0.5f;
