@@ -1,4 +1,4 @@
 # The shared shader math, compiled as C++, against closed forms, quadrature and enumeration.
-foreach(TEST random warp brdf)
+foreach(TEST random warp brdf light_math environment_math reservoir)
   tarn_test(${TEST} LABEL unit LIBRARIES tarn_shared tarn_core)
 endforeach()
