@@ -135,13 +135,14 @@ struct Difference {
     double degrees_of_freedom = std::numeric_limits<double>::infinity();
     bool unseen = false;  // one side has met no sample here, the other has
 
-    // Two-sided, after Hall's transformation.
+    // Two-sided, after Hall's transformation where that lessens the doubt: the skewness is itself an
+    // estimate, and one from few seeds would otherwise find significance in its own noise.
     double p_value() const {
         if (standard_error == 0.0) return value == 0.0 ? 1.0 : 0.0;
         const double t = value / standard_error;
         const double corrected =
             t + skewness * t * t / 3.0 + skewness * skewness * t * t * t / 27.0 + skewness / 6.0;
-        return student_t_two_sided_p_value(corrected, degrees_of_freedom);
+        return student_t_two_sided_p_value(std::min(std::abs(t), std::abs(corrected)), degrees_of_freedom);
     }
 };
 
@@ -158,10 +159,12 @@ Difference subtract(const Moments& a, const Moments& b, double rounding) {
     difference.unseen = is_black(a) != is_black(b);
     if (variance == 0.0) return difference;
     difference.skewness = (a.third_cumulant - b.third_cumulant) / (variance * difference.standard_error);
-    // Welch and Satterthwaite.
-    const double spread =
-        a.variance * a.variance / a.degrees_of_freedom + b.variance * b.variance / b.degrees_of_freedom;
-    if (spread > 0.0) difference.degrees_of_freedom = variance * variance / spread;
+    // Welch's statistic with the careful choice of the smaller side's freedom: Satterthwaite's formula takes
+    // the variances for known and is too bold far out in the tail, where the corrected threshold lies.
+    if (a.variance > 0.0) difference.degrees_of_freedom = a.degrees_of_freedom;
+    if (b.variance > 0.0) {
+        difference.degrees_of_freedom = std::min(difference.degrees_of_freedom, b.degrees_of_freedom);
+    }
     return difference;
 }
 

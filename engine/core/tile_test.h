@@ -6,13 +6,14 @@
 // over images of independent seeds, which needs no model of the correlation. The reference's pixels ARE
 // independent (a path tracer), so there the per-pixel variances of the mean add up.
 //
-// Each tile and each of R, G, B and luminance is one test, by Welch's t, corrected twice:
+// Each tile and each of R, G, B and luminance is one test, by Welch's t, with these corrections:
+// * Degrees of freedom are those of the side with fewer seeds, less one: far out in the tail, where the
+//   threshold of many tests lies, Satterthwaite's larger number finds too much.
 // * Rendering noise is skewed (rare bright samples). Then mean and spread are correlated and t is too often
-// too low.
-//   Hall's cubic transformation (P. Hall, "On the removal of skewness by transformation", JRSS B 54, 1992)
-//   removes the first-order effect. Where the mean of a tile is still too skewed for it, or the estimator has
-//   not yet seen a sample there, the tile is pooled with its neighbours (2 x 2, 4 x 4, ...) and tested as
-//   one.
+//   too low. Hall's cubic transformation (P. Hall, "On the removal of skewness by transformation", JRSS B 54,
+//   1992) removes the first-order effect; it is applied where it makes the test more careful. Where the mean
+//   of a tile is still too skewed for it (fewer than about 16 rare events), or one side has met no light
+//   there at all, the tile is pooled with its neighbours (2 x 2, 4 x 4, ...) and tested as one.
 // * All tests together fail by chance with probability `significance` (Sidak).
 //
 // What it cannot see: an event so rare that no seed met it, beside others that look well-behaved. Then the

@@ -50,7 +50,13 @@ Kernel gaussian_kernel(double deviation, int radius) {
         sum += weights.back();
     }
     Kernel kernel;
-    for (const double weight : weights) kernel.push_back(float(weight / sum));
+    double rest = 1.0;
+    for (const double weight : weights) {
+        kernel.push_back(float(weight / sum));
+        rest -= kernel.back();
+    }
+    // Rounding must not brighten: variances are small differences of such sums.
+    kernel[std::size_t(radius)] += float(rest);
     return kernel;
 }
 

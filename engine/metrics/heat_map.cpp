@@ -40,8 +40,8 @@ std::array<Rgb, STEPS> make_ramp() {
     for (std::size_t i = 0; i < STEPS; ++i) {
         const float t = float(i) / float(STEPS - 1);
         const float hue_rad = std::numbers::pi_v<float> / 180.0f * (-60.0f + 160.0f * t);
-        const float chroma =
-            68.0f * std::pow(std::sin(std::numbers::pi_v<float> * std::pow(t, 0.8f)), 0.8f) + 18.0f * t;
+        const float arch = std::max(std::sin(std::numbers::pi_v<float> * std::pow(t, 0.8f)), 0.0f);
+        const float chroma = 68.0f * std::pow(arch, 0.8f) + 18.0f * t;
         ramp[i] = srgb_from_lab(97.0f * t, chroma * std::cos(hue_rad), chroma * std::sin(hue_rad));
     }
     ramp[0] = {0.0f, 0.0f, 0.0f};

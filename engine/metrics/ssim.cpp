@@ -27,6 +27,19 @@ Plane product(const Plane& a, const Plane& b) {
     return result;
 }
 
+// Takes the common mean off both planes and returns it: variances are differences of squares, which lose
+// digits far from zero.
+double centre(Plane& a, Plane& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.values.size(); ++i) sum += double(a.values[i]) + b.values[i];
+    const float mean = float(sum / (2.0 * double(a.values.size())));
+    for (std::size_t i = 0; i < a.values.size(); ++i) {
+        a.values[i] -= mean;
+        b.values[i] -= mean;
+    }
+    return mean;
+}
+
 }  // namespace
 
 double compute_ssim(const Image& reference, const Image& image) {
@@ -34,8 +47,9 @@ double compute_ssim(const Image& reference, const Image& image) {
     constexpr double C1 = 0.01 * 0.01;
     constexpr double C2 = 0.03 * 0.03;
     const Kernel window = gaussian_kernel(1.5, 5);
-    const Plane a = luma_of(reference, image);
-    const Plane b = luma_of(image, reference);
+    Plane a = luma_of(reference, image);
+    Plane b = luma_of(image, reference);
+    const double offset = centre(a, b);
     const Plane mean_a = correlate(a, window, window);
     const Plane mean_b = correlate(b, window, window);
     const Plane mean_aa = correlate(product(a, a), window, window);
@@ -49,7 +63,9 @@ double compute_ssim(const Image& reference, const Image& image) {
         const double mb = mean_b.values[i];
         const double variances = double(mean_aa.values[i]) - ma * ma + double(mean_bb.values[i]) - mb * mb;
         const double covariance = double(mean_ab.values[i]) - ma * mb;
-        sum += (2 * ma * mb + C1) * (2 * covariance + C2) / ((ma * ma + mb * mb + C1) * (variances + C2));
+        const double la = ma + offset;
+        const double lb = mb + offset;
+        sum += (2 * la * lb + C1) * (2 * covariance + C2) / ((la * la + lb * lb + C1) * (variances + C2));
         ++count;
     }
     return count == 0 ? std::numeric_limits<double>::quiet_NaN() : sum / double(count);

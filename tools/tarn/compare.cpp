@@ -184,9 +184,9 @@ void write_json(const std::filesystem::path& path, const Pair& pair, const Compa
 void run_compare(const CompareOptions& options) {
     Pair pair = load_pair(options);
     const Comparison comparison = compare(pair);
-    print_table(pair, comparison);
     if (!options.json.empty()) write_json(options.json, pair, comparison);
     if (!options.difference.empty()) write_png(options.difference, heat_map(comparison.flip_map));
+    print_table(pair, comparison);
 }
 
 }  // namespace
