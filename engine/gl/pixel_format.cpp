@@ -31,6 +31,7 @@ constexpr PixelFormat FORMATS[] = {
     TARN_FORMAT(R16UI, RED_INTEGER, UNSIGNED_SHORT, 2, 1),
     TARN_FORMAT(R32UI, RED_INTEGER, UNSIGNED_INT, 4, 1),
     TARN_FORMAT(RG32UI, RG_INTEGER, UNSIGNED_INT, 8, 2),
+    TARN_FORMAT(RGB32UI, RGB_INTEGER, UNSIGNED_INT, 12, 3),
     TARN_FORMAT(RGBA32UI, RGBA_INTEGER, UNSIGNED_INT, 16, 4),
     TARN_FORMAT(R32I, RED_INTEGER, INT, 4, 1),
     TARN_FORMAT(RG32I, RG_INTEGER, INT, 8, 2),
@@ -42,7 +43,8 @@ constexpr PixelFormat FORMATS[] = {
 }  // namespace
 
 bool PixelFormat::is_integer() const {
-    return format == GL_RED_INTEGER || format == GL_RG_INTEGER || format == GL_RGBA_INTEGER;
+    return format == GL_RED_INTEGER || format == GL_RG_INTEGER || format == GL_RGB_INTEGER ||
+           format == GL_RGBA_INTEGER;
 }
 
 const PixelFormat& get_pixel_format(GLenum internal_format) {

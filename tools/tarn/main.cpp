@@ -13,6 +13,7 @@ int run(int argc, char** argv) {
     CLI::App app{"Tarn: an OpenGL 4.5 deferred rasterizer with resampled lights and Embree shadows, on the CPU."};
     app.require_subcommand(1);
     add_info_command(app);
+    add_render_command(app);
     add_compare_command(app);
     try {
         app.parse(argc, argv);

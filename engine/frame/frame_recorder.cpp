@@ -1,0 +1,131 @@
+#include "frame/frame_recorder.h"
+
+#include "core/error.h"
+#include "gl/fence.h"
+
+namespace tarn {
+namespace {
+
+constexpr int GROUP_SIZE_PX = 8;
+
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+// ---- PassRecorder ---------------------------------------------------------------------------------------------------
+
+PassRecorder::PassRecorder(FrameRecorder& frame, std::string name)
+    : frame_(frame), name_(std::move(name)), group_(name_) {}
+
+PassRecorder::~PassRecorder() = default;
+
+PassRecorder& PassRecorder::read(unsigned unit, const Texture2D& texture) {
+    frame_.check_written(texture.id(), true, name_, texture.name());
+    texture.bind(unit);
+    return *this;
+}
+
+PassRecorder& PassRecorder::read(unsigned unit, const BufferTexture& texture, const Buffer& buffer) {
+    frame_.check_written(buffer.id(), false, name_, buffer.name());
+    texture.bind(unit);
+    return *this;
+}
+
+PassRecorder& PassRecorder::write_image(unsigned unit, const Texture2D& texture) {
+    texture.bind_image(unit, GL_WRITE_ONLY);
+    frame_.written_.emplace(true, texture.id());
+    return *this;
+}
+
+PassRecorder& PassRecorder::write(unsigned binding, const Buffer& buffer) {
+    buffer.bind_storage(binding);
+    frame_.written_.emplace(false, buffer.id());
+    return *this;
+}
+
+PassRecorder& PassRecorder::write_on_cpu(const Buffer& buffer) {
+    frame_.written_.emplace(false, buffer.id());
+    return *this;
+}
+
+PassRecorder& PassRecorder::count(unsigned binding, const Buffer& buffer) {
+    buffer.bind_storage(binding);
+    return *this;
+}
+
+PassRecorder& PassRecorder::write_target(const Framebuffer& target, std::initializer_list<const Texture2D*> colours) {
+    target.bind();
+    for (const Texture2D* colour : colours) frame_.written_.emplace(true, colour->id());
+    return *this;
+}
+
+void PassRecorder::dispatch(const Program& program, int width_px, int height_px) {
+    program.use();
+    const std::size_t first = frame_.stamp();
+    glDispatchCompute(GLuint((width_px + GROUP_SIZE_PX - 1) / GROUP_SIZE_PX),
+                      GLuint((height_px + GROUP_SIZE_PX - 1) / GROUP_SIZE_PX), 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT |
+                    GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
+                    GL_FRAMEBUFFER_BARRIER_BIT);
+    frame_.stamp();
+    frame_.timed_.push_back({name_, first, -1.0});
+}
+
+void PassRecorder::draw(const Program& program, const std::function<void()>& draws) {
+    program.use();
+    const std::size_t first = frame_.stamp();
+    draws();
+    frame_.stamp();
+    frame_.timed_.push_back({name_, first, -1.0});
+}
+
+void PassRecorder::run_on_cpu(const std::function<void()>& work) {
+    Fence().wait();
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    frame_.timed_.push_back({name_, 0, milliseconds_since(start)});
+}
+
+// ---- FrameRecorder --------------------------------------------------------------------------------------------------
+
+FrameRecorder::FrameRecorder() : start_(std::chrono::steady_clock::now()) {}
+
+void FrameRecorder::begin() {
+    written_.clear();
+    timed_.clear();
+    queries_used_ = 0;
+    start_ = std::chrono::steady_clock::now();
+}
+
+FrameTimings FrameRecorder::end() {
+    Fence().wait();
+    FrameTimings timings;
+    timings.frame_ms = milliseconds_since(start_);
+    for (const Timed& timed : timed_) {
+        double ms = timed.cpu_ms;
+        if (ms < 0.0) {
+            const std::uint64_t from = queries_[timed.first_query].read_ns();
+            const std::uint64_t to = queries_[timed.first_query + 1].read_ns();
+            ms = to > from ? double(to - from) * 1e-6 : 0.0;
+        }
+        timings.passes.push_back({timed.name, ms});
+    }
+    return timings;
+}
+
+void FrameRecorder::check_written(unsigned id, bool is_texture, const std::string& pass,
+                                  const std::string& resource) const {
+    if (!written_.contains({is_texture, id})) {
+        throw Error("pass '{}' reads '{}', which no earlier pass of this frame wrote", pass, resource);
+    }
+}
+
+std::size_t FrameRecorder::stamp() {
+    if (queries_used_ == queries_.size()) queries_.emplace_back("frame/timestamp");
+    queries_[queries_used_].record();
+    return queries_used_++;
+}
+
+}  // namespace tarn

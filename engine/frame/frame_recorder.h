@@ -1,0 +1,94 @@
+// Records one frame, pass by pass: binds, labels, times, issues the barriers, and checks that what a pass reads was
+// written earlier in this frame.
+//
+//     frame.pass("direct/shade").read(14, reservoirs).write_image(0, radiance).dispatch(program, width, height);
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "frame/timings.h"
+#include "gl/buffer.h"
+#include "gl/debug_output.h"
+#include "gl/framebuffer.h"
+#include "gl/program.h"
+#include "gl/query.h"
+#include "gl/texture.h"
+
+namespace tarn {
+
+class FrameRecorder;
+
+// A pass while it is being described. Lives until the end of the statement that records it.
+class PassRecorder {
+  public:
+    PassRecorder(FrameRecorder& frame, std::string name);
+    ~PassRecorder();
+    PassRecorder(const PassRecorder&) = delete;
+    PassRecorder& operator=(const PassRecorder&) = delete;
+
+    // Reads through texture unit `unit` what an earlier pass of this frame wrote.
+    PassRecorder& read(unsigned unit, const Texture2D& texture);
+    // The same through a buffer texture; `buffer` is the memory behind it.
+    PassRecorder& read(unsigned unit, const BufferTexture& texture, const Buffer& buffer);
+    // Writes through image unit `unit`.
+    PassRecorder& write_image(unsigned unit, const Texture2D& texture);
+    // Writes as storage block `binding`.
+    PassRecorder& write(unsigned binding, const Buffer& buffer);
+    // Writes by the CPU, through the buffer's mapping.
+    PassRecorder& write_on_cpu(const Buffer& buffer);
+    // Adds to counters in storage block `binding`; they need not have been written in this frame.
+    PassRecorder& count(unsigned binding, const Buffer& buffer);
+    // Draws into `target`, whose colours the pass so writes.
+    PassRecorder& write_target(const Framebuffer& target, std::initializer_list<const Texture2D*> colours);
+
+    // Runs a compute shader of 8 x 8 groups once per pixel.
+    void dispatch(const Program& program, int width_px, int height_px);
+    // Runs `draws`, which issues draw calls with `program` in use.
+    void draw(const Program& program, const std::function<void()>& draws);
+    // Runs work of the CPU over buffers that it shares with GL: waits for the device before, and is timed alone.
+    void run_on_cpu(const std::function<void()>& work);
+
+  private:
+    FrameRecorder& frame_;
+    std::string name_;
+    DebugGroup group_;
+};
+
+class FrameRecorder {
+  public:
+    FrameRecorder();
+
+    // Starts a frame: forgets what was written, restarts the clock.
+    void begin();
+    // Waits for the device and returns what the frame cost.
+    FrameTimings end();
+
+    PassRecorder pass(std::string name) { return PassRecorder(*this, std::move(name)); }
+
+  private:
+    friend class PassRecorder;
+
+    struct Timed {
+        std::string name;
+        std::size_t first_query = 0;  // begin and end in queries_, for work of the device
+        double cpu_ms = -1.0;         // >= 0: work of the CPU
+    };
+
+    void check_written(unsigned id, bool is_texture, const std::string& pass, const std::string& resource) const;
+    std::size_t stamp();
+
+    std::set<std::pair<bool, unsigned>> written_;  // (is texture, GL name)
+    std::vector<TimestampQuery> queries_;
+    std::size_t queries_used_ = 0;
+    std::vector<Timed> timed_;
+    std::chrono::steady_clock::time_point start_;
+};
+
+}  // namespace tarn

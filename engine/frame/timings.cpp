@@ -1,0 +1,36 @@
+#include "frame/timings.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tarn {
+namespace {
+
+double quantile(std::vector<double> values, double q) {
+    if (values.empty()) return 0.0;
+    std::sort(values.begin(), values.end());
+    const double position = q * double(values.size() - 1);
+    const std::size_t lower = std::size_t(std::floor(position));
+    const std::size_t upper = std::min(lower + 1, values.size() - 1);
+    return values[lower] + (values[upper] - values[lower]) * (position - double(lower));
+}
+
+}  // namespace
+
+void TimingLog::add(const FrameTimings& timings) {
+    frame_ms_.push_back(timings.frame_ms);
+    for (const PassTiming& pass : timings.passes) {
+        if (!pass_ms_.contains(pass.name)) order_.push_back(pass.name);
+        pass_ms_[pass.name].push_back(pass.ms);
+    }
+}
+
+double TimingLog::frame_quantile_ms(double q) const { return quantile(frame_ms_, q); }
+
+std::vector<PassTiming> TimingLog::pass_medians() const {
+    std::vector<PassTiming> medians;
+    for (const std::string& name : order_) medians.push_back({name, quantile(pass_ms_.at(name), 0.5)});
+    return medians;
+}
+
+}  // namespace tarn

@@ -1,0 +1,38 @@
+// What each pass of a frame cost.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace tarn {
+
+struct PassTiming {
+    std::string name;  // "direct/candidates": also the debug group, the shader's path and the key in JSON
+    double ms = 0.0;
+};
+
+struct FrameTimings {
+    double frame_ms = 0.0;  // wall clock, from the first command to the last answer
+    std::vector<PassTiming> passes;
+};
+
+// Frame timings of a run, and their medians.
+class TimingLog {
+  public:
+    void add(const FrameTimings& timings);
+    std::size_t frame_count() const { return frame_ms_.size(); }
+
+    // Quantile of the frame times, ms, 0 <= q <= 1; 0 without frames.
+    double frame_quantile_ms(double q) const;
+
+    // Median of each pass, ms, in the order in which the passes first ran.
+    std::vector<PassTiming> pass_medians() const;
+
+  private:
+    std::vector<double> frame_ms_;
+    std::vector<std::string> order_;
+    std::map<std::string, std::vector<double>> pass_ms_;
+};
+
+}  // namespace tarn

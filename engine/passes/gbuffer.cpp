@@ -1,0 +1,177 @@
+#include "passes/gbuffer.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "passes/culling.h"
+#include "shared/interface/bindings.h"
+
+namespace tarn {
+namespace {
+
+// As glMultiDrawElementsIndirect reads it.
+struct DrawCommand {
+    GLuint index_count;
+    GLuint instance_count;
+    GLuint first_index;
+    GLint base_vertex;
+    GLuint base_instance;  // index into the draw ids
+};
+
+// The state that triangles of a bucket share.
+enum class Culling { NONE, BACK, BACK_MIRRORED };
+
+Culling culling_of(const World& world, std::uint32_t instance) {
+    if ((world.flags_of(instance) & MATERIAL_DOUBLE_SIDED) != 0u) return Culling::NONE;
+    return world.instances[instance].mirrored ? Culling::BACK_MIRRORED : Culling::BACK;
+}
+
+bool needs_coverage(const World& world, std::uint32_t instance) {
+    return (world.flags_of(instance) & (MATERIAL_ALPHA_MASK | MATERIAL_ALPHA_BLEND)) != 0u;
+}
+
+void set_culling(Culling culling) {
+    if (culling == Culling::NONE) {
+        glDisable(GL_CULL_FACE);
+        return;
+    }
+    glEnable(GL_CULL_FACE);
+    glCullFace(GL_BACK);
+    // Clip space has +Y down, which turns counter-clockwise into clockwise.
+    glFrontFace(culling == Culling::BACK ? GL_CW : GL_CCW);
+}
+
+// A buffer that grows by doubling.
+template <class Row>
+bool reserve(std::unique_ptr<Buffer>& buffer, const std::string& name, std::size_t count) {
+    const std::size_t needed = std::max<std::size_t>(count, 1) * sizeof(Row);
+    if (buffer && buffer->size_bytes() >= needed) return false;
+    buffer = std::make_unique<Buffer>(name, 2 * needed, BufferUse::DYNAMIC);
+    return true;
+}
+
+}  // namespace
+
+struct GBufferPass::Bucket {
+    Culling culling;
+    bool coverage;
+    std::vector<DrawCommand> commands;
+};
+
+PassRecorder& read_gbuffer(PassRecorder& pass, const GBuffer& gbuffer) {
+    return pass.read(UNIT_POSITION, gbuffer.position)
+        .read(UNIT_NORMALS, gbuffer.normals)
+        .read(UNIT_DIFFUSE, gbuffer.diffuse)
+        .read(UNIT_SPECULAR, gbuffer.specular);
+}
+
+GBufferPass::GBufferPass(ProgramLibrary& programs, const GpuScene& gpu_scene, int width_px, int height_px,
+                         std::vector<std::string> scene_defines)
+    : programs_(programs),
+      scene_defines_(std::move(scene_defines)),
+      width_px_(width_px),
+      height_px_(height_px),
+      seen_("gbuffer/seen", width_px, height_px, GL_RG32UI),
+      depth_("gbuffer/depth", width_px, height_px, GL_DEPTH_COMPONENT32F),
+      position_("gbuffer/position", width_px, height_px, GL_RGBA32F),
+      normals_("gbuffer/normals", width_px, height_px, GL_RGBA32F),
+      diffuse_("gbuffer/diffuse", width_px, height_px, GL_RGBA32F),
+      specular_("gbuffer/specular", width_px, height_px, GL_RGBA32F),
+      emission_("gbuffer/emission", width_px, height_px, GL_RGBA32F),
+      target_("gbuffer/raster", {&seen_}, &depth_),
+      vertex_array_("gbuffer/vertices") {
+    for (const Culling culling : {Culling::BACK, Culling::BACK_MIRRORED, Culling::NONE}) {
+        buckets_.push_back({culling, false, {}});
+        buckets_.push_back({culling, true, {}});
+    }
+    vertex_array_.add_float_attribute(0, 3, gpu_scene.vertex_buffer(), 0, VERTEX_ROWS * sizeof(glm::uvec4));
+    vertex_array_.set_index_buffer(gpu_scene.triangle_buffer());
+}
+
+GBufferPass::~GBufferPass() = default;
+
+void GBufferPass::collect_draws(const World& world, const CameraRecord& camera) {
+    const std::vector<TriangleRange> ranges = find_visible_ranges(world, camera);
+    std::vector<glm::uvec2> ids;
+    for (Bucket& bucket : buckets_) bucket.commands.clear();
+    statistics_ = {};
+    for (const TriangleRange& range : ranges) {
+        const WorldMesh& mesh = world.meshes[world.instances[range.instance].mesh];
+        const Culling culling = culling_of(world, range.instance);
+        const bool coverage = needs_coverage(world, range.instance);
+        const auto bucket = std::find_if(buckets_.begin(), buckets_.end(), [&](const Bucket& b) {
+            return b.culling == culling && b.coverage == coverage;
+        });
+        bucket->commands.push_back({3 * range.triangle_count, 1, 3 * (mesh.first_triangle + range.first_triangle),
+                                    GLint(mesh.first_vertex), GLuint(ids.size())});
+        ids.emplace_back(range.instance, range.first_triangle);
+        statistics_.triangles_drawn += range.triangle_count;
+    }
+    statistics_.draws = std::uint32_t(ids.size());
+    for (const WorldInstance& instance : world.instances) {
+        statistics_.triangles_total += world.meshes[instance.mesh].triangle_count;
+    }
+    if (reserve<glm::uvec2>(draw_ids_, "gbuffer/draw_ids", ids.size())) {
+        vertex_array_.add_uint_attribute(1, 2, *draw_ids_, 0, sizeof(glm::uvec2), 1);
+    }
+    if (!ids.empty()) draw_ids_->upload(0, ids);
+    reserve<DrawCommand>(commands_, "gbuffer/draw_commands", ids.size());
+    std::size_t offset_bytes = 0;
+    for (const Bucket& bucket : buckets_) {
+        if (bucket.commands.empty()) continue;
+        commands_->upload(offset_bytes, bucket.commands);
+        offset_bytes += bucket.commands.size() * sizeof(DrawCommand);
+    }
+}
+
+void GBufferPass::issue_draws(const World&, bool coverage) const {
+    std::size_t offset_bytes = 0;
+    for (const Bucket& bucket : buckets_) {
+        if (bucket.coverage == coverage && !bucket.commands.empty()) {
+            set_culling(bucket.culling);
+            glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset_bytes),
+                                        GLsizei(bucket.commands.size()), sizeof(DrawCommand));
+        }
+        offset_bytes += bucket.commands.size() * sizeof(DrawCommand);
+    }
+}
+
+GBuffer GBufferPass::record(FrameRecorder& frame, const World& world, const CameraRecord& camera) {
+    collect_draws(world, camera);
+    seen_.clear(glm::uvec4(INVALID_INDEX));
+    depth_.clear(glm::vec4(0.0f));
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_GREATER);
+    vertex_array_.bind();
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_->id());
+    const auto draw = [&](bool coverage) {
+        std::vector<std::string> defines = scene_defines_;
+        if (coverage) defines.push_back("TARN_COVERAGE");
+        frame.pass(coverage ? "gbuffer/raster_coverage" : "gbuffer/raster")
+            .write_target(target_, {&seen_})
+            .draw(programs_.graphics("gbuffer/raster", defines), [&] { issue_draws(world, coverage); });
+    };
+    const auto has_draws = [&](bool coverage) {
+        return std::any_of(buckets_.begin(), buckets_.end(), [&](const Bucket& bucket) {
+            return bucket.coverage == coverage && !bucket.commands.empty();
+        });
+    };
+    draw(false);
+    if (has_draws(true)) draw(true);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_DEPTH_TEST);
+
+    frame.pass("gbuffer/resolve")
+        .read(UNIT_PASS_A, seen_)
+        .write_image(0, position_)
+        .write_image(1, normals_)
+        .write_image(2, diffuse_)
+        .write_image(3, specular_)
+        .write_image(4, emission_)
+        .dispatch(programs_.compute("gbuffer/resolve", scene_defines_), width_px_, height_px_);
+    return {seen_, position_, normals_, diffuse_, specular_, emission_};
+}
+
+}  // namespace tarn

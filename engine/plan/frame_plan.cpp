@@ -1,0 +1,56 @@
+#include "plan/frame_plan.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "shared/math/light.h"
+
+namespace tarn {
+namespace {
+
+// Materials that have a texture in `slot`.
+std::size_t count_slot(const World& world, std::uint32_t slot) {
+    std::size_t count = 0;
+    for (std::size_t m = 0; m < world.material_flags.size(); ++m) {
+        const std::size_t row = m * MATERIAL_ROWS + 4 + 2 * slot;
+        if ((world.material_rows[row].z & SLOT_PRESENT) != 0u) ++count;
+    }
+    return count;
+}
+
+std::size_t count_textured_lights(const WorldLights& lights) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < lights.count; ++i) {
+        if ((lights.rows[i * LIGHT_ROWS].w & LIGHT_TEXTURED) != 0u) ++count;
+    }
+    return count;
+}
+
+}  // namespace
+
+std::vector<std::string> FramePlan::defines() const {
+    std::vector<std::string> result;
+    for (const PlanEntry& entry : entries) result.push_back(entry.define);
+    return result;
+}
+
+FramePlan make_plan(const World& world) {
+    FramePlan plan;
+    const auto add = [&](const char* define, std::size_t count, const char* what) {
+        if (count > 0) plan.entries.push_back({define, fmt::format("{} {}", count, what)});
+    };
+    std::size_t textures = 0;
+    for (const std::uint32_t slot : {SLOT_BASE_COLOR, SLOT_METALLIC_ROUGHNESS, SLOT_NORMAL, SLOT_EMISSION}) {
+        textures += count_slot(world, slot);
+    }
+    const WorldLights& lights = world.lights;
+    add("TARN_TEXTURES", textures, "texture slots in use");
+    add("TARN_NORMAL_MAPS", count_slot(world, SLOT_NORMAL), "materials with a normal map");
+    add("TARN_ENVIRONMENT", std::size_t(world.environment.width) * world.environment.height, "texels of sky");
+    add("TARN_PUNCTUAL_LIGHTS", lights.punctual_count, "punctual lights");
+    add("TARN_TRIANGLE_LIGHTS", lights.count - lights.punctual_count, "emissive triangles");
+    add("TARN_TEXTURED_LIGHTS", count_textured_lights(lights), "emissive triangles with a texture");
+    return plan;
+}
+
+}  // namespace tarn

@@ -1,0 +1,93 @@
+#include "renderer/renderer.h"
+
+#include <algorithm>
+
+#include "shared/interface/bindings.h"
+#include "shared/interface/frame_block.h"
+#include "shared/math/random.h"
+
+namespace tarn {
+namespace {
+
+double scene_diameter(const World& world) {
+    return world.bounds.empty() ? 1.0 : std::max(1e-6, glm::length(world.bounds.extent()));
+}
+
+// Near plane of a perspective camera or depth range of an orthographic one, metres. Depth is reversed and floating,
+// so a near plane at 1e-5 of the scene costs no precision.
+float depth_parameter(const World& world, const CameraRecord& camera) {
+    const double diameter = scene_diameter(world);
+    if (!camera.orthographic) return float(1e-5 * diameter);
+    const glm::dvec3 centre = world.bounds.empty() ? glm::dvec3(0.0) : world.bounds.centre();
+    return float(4.0 * (diameter + glm::length(glm::dvec3(camera.position) - centre)));
+}
+
+}  // namespace
+
+Renderer::Renderer(const World& world, const RayTracer& tracer, int width_px, int height_px)
+    : world_(world),
+      tracer_(tracer),
+      width_px_(width_px),
+      height_px_(height_px),
+      plan_(make_plan(world)),
+      gpu_scene_(world),
+      frame_block_("frame/block", sizeof(FrameBlock), BufferUse::DYNAMIC),
+      counters_("frame/counters", COUNTER_COUNT * sizeof(std::uint32_t), BufferUse::DEVICE),
+      gbuffer_(programs_, gpu_scene_, width_px, height_px, plan_.defines()),
+      direct_candidates_(programs_, width_px, height_px),
+      visibility_(std::size_t(width_px) * std::size_t(height_px)),
+      direct_shade_(programs_, width_px, height_px) {
+    counters_.clear();
+}
+
+void Renderer::update() { gpu_scene_.update(world_); }
+
+void Renderer::upload_frame_block(const FrameInput& input) {
+    const CameraRecord& camera = input.camera;
+    FrameBlock block;
+    block.frame_camera_position = glm::vec4(camera.position, camera.orthographic ? 1.0f : 0.0f);
+    block.frame_camera_right = glm::vec4(camera.right, 0.0f);
+    block.frame_camera_up = glm::vec4(camera.up, 0.0f);
+    block.frame_camera_forward = glm::vec4(camera.forward, depth_parameter(world_, camera));
+    block.frame_size = glm::uvec4(width_px_, height_px_, input.frame, input.seed);
+    block.frame_lights = glm::uvec4(world_.lights.count, world_.environment.width, world_.environment.height,
+                                    input.settings.candidates);
+    frame_block_.upload(0, std::span<const FrameBlock>(&block, 1));
+    frame_block_.bind_uniform(BLOCK_FRAME);
+}
+
+FrameOutput Renderer::render(const FrameInput& input) {
+    const std::vector<std::string> defines = plan_.defines();
+    const CoverageKey shadow_key{input.frame, input.seed, RAY_SHADOW};
+
+    frame_.begin();
+    upload_frame_block(input);
+    gpu_scene_.bind();
+
+    const GBuffer gbuffer = gbuffer_.record(frame_, world_, input.camera);
+    const Candidates candidates =
+        direct_candidates_.record(frame_, gbuffer, input.settings.direct, counters_, defines);
+    const Visibility visible = visibility_.record(frame_, tracer_, candidates.rays, shadow_key);
+    const Texture2D& radiance = direct_shade_.record(frame_, gbuffer, candidates, visible, counters_, defines);
+
+    rejected_rays_ += visibility_.result().rejected;
+    return {radiance, gbuffer, frame_.end(), visibility_.result(), gbuffer_.statistics()};
+}
+
+Image Renderer::read_radiance(const Texture2D& radiance) const {
+    const std::vector<glm::vec4> texels = radiance.download<glm::vec4>();
+    Image image(width_px_, height_px_, 3);
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        for (int channel = 0; channel < 3; ++channel) image.values[3 * i + channel] = texels[i][channel];
+    }
+    return image;
+}
+
+std::map<std::string, std::uint64_t> Renderer::read_counters() const {
+    const std::vector<std::uint32_t> values = counters_.download<std::uint32_t>();
+    return {{"bad_weights", values[COUNTER_BAD_WEIGHT]},
+            {"bad_radiance", values[COUNTER_BAD_RADIANCE]},
+            {"rejected_rays", rejected_rays_}};
+}
+
+}  // namespace tarn

@@ -1,0 +1,81 @@
+// THE FRAME: from a world, a camera and settings to radiance, pass by pass.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "core/image.h"
+#include "frame/frame_recorder.h"
+#include "gl/program_library.h"
+#include "passes/direct/direct_light.h"
+#include "passes/gbuffer.h"
+#include "passes/gpu_scene.h"
+#include "passes/visibility.h"
+#include "plan/frame_plan.h"
+#include "rays/ray_tracer.h"
+#include "renderer/settings.h"
+
+namespace tarn {
+
+struct FrameInput {
+    CameraRecord camera;
+    std::uint32_t frame = 0;
+    std::uint32_t seed = 0;
+    RenderSettings settings;
+};
+
+struct FrameOutput {
+    const Texture2D& radiance;  // RGBA32F, row 0 on top, W sr^-1 m^-2
+    GBuffer gbuffer;
+    FrameTimings timings;
+    RayBatchResult shadow_rays;
+    GBufferStatistics raster;
+};
+
+// Needs a current GL context. Same world, camera, frame, seed and settings give the same bits.
+class Renderer {
+  public:
+    // Throws Error when the world does not fit the driver's limits. `world` and `tracer` must outlive the renderer.
+    Renderer(const World& world, const RayTracer& tracer, int width_px, int height_px);
+
+    // Uploads what moved; call after update_world and the tracer's update.
+    void update();
+
+    FrameOutput render(const FrameInput& input);
+
+    // Waits and reads a radiance texture back as 3 channels.
+    Image read_radiance(const Texture2D& radiance) const;
+
+    // Totals since construction, by name.
+    std::map<std::string, std::uint64_t> read_counters() const;
+
+    // Recompiles changed shaders; returns the errors of those that keep their old version.
+    std::string reload_shaders() { return programs_.reload(); }
+
+    const FramePlan& plan() const { return plan_; }
+    int width_px() const { return width_px_; }
+    int height_px() const { return height_px_; }
+
+  private:
+    void upload_frame_block(const FrameInput& input);
+
+    const World& world_;
+    const RayTracer& tracer_;
+    int width_px_;
+    int height_px_;
+    FramePlan plan_;
+    ProgramLibrary programs_;
+    GpuScene gpu_scene_;
+    FrameRecorder frame_;
+    Buffer frame_block_;
+    Buffer counters_;
+    GBufferPass gbuffer_;
+    DirectCandidatesPass direct_candidates_;
+    VisibilityPass visibility_;
+    DirectShadePass direct_shade_;
+    std::uint64_t rejected_rays_ = 0;
+};
+
+}  // namespace tarn

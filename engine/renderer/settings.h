@@ -1,0 +1,36 @@
+// Every tunable of the renderer, declared once: the row feeds the command line, the panel and the JSON report.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "passes/direct/direct_light.h"
+
+namespace tarn {
+
+struct RenderSettings {
+    DirectMode direct = DirectMode::RIS;
+    int candidates = 32;
+};
+
+// One row of the table. Values travel as doubles; a choice is the index into `choices`.
+struct Setting {
+    std::string name;      // "candidates": the option is --candidates
+    std::string unit;      // "" where there is none
+    std::string sentence;  // what it does, for --help and the panel
+    double minimum = 0.0;
+    double maximum = 0.0;
+    std::vector<std::string> choices;  // empty: a number
+    std::function<double(const RenderSettings&)> get;
+    std::function<void(RenderSettings&, double)> set;
+
+    // Reads a value as a user writes it. Throws Error that names the setting and what it accepts.
+    void parse(RenderSettings& settings, const std::string& text) const;
+    // The value as a user would write it.
+    std::string format(const RenderSettings& settings) const;
+};
+
+const std::vector<Setting>& setting_table();
+
+}  // namespace tarn

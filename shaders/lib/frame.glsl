@@ -1,0 +1,30 @@
+// The frame's camera, size and random key.
+#include "shared/interface/frame_block.h"
+#include "shared/interface/records.h"
+#include "shared/math/random.h"
+
+ivec2 frame_size_px() { return ivec2(frame_size.xy); }
+
+CameraRecord frame_camera() {
+    CameraRecord camera;
+    camera.position = frame_camera_position.xyz;
+    camera.right = frame_camera_right.xyz;
+    camera.up = frame_camera_up.xyz;
+    camera.forward = frame_camera_forward.xyz;
+    camera.orthographic = frame_camera_position.w != 0.0f;
+    return camera;
+}
+
+PixelRay pixel_ray(ivec2 pixel) { return camera_ray(frame_camera(), vec2(pixel) + 0.5f, vec2(frame_size.xy)); }
+
+uint pixel_index(ivec2 pixel) { return uint(pixel.y) * frame_size.x + uint(pixel.x); }
+
+RandomKey pixel_key(ivec2 pixel) {
+    RandomKey key;
+    key.pixel = pixel_index(pixel);
+    key.frame = frame_size.z;
+    key.seed = frame_size.w;
+    return key;
+}
+
+bool is_outside(ivec2 pixel) { return pixel.x >= int(frame_size.x) || pixel.y >= int(frame_size.y); }

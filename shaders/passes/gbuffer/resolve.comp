@@ -1,0 +1,68 @@
+// From the seen triangle to the surface: the pixel's ray is intersected with it again, so that the position is the
+// one that rays meet, and every texture is read once a pixel, whatever the overdraw.
+//
+// The G-buffer, all RGBA32F:
+//   position  relative to the world's origin, and the bound on its rounding error (-1: nothing to be lit here)
+//   normals   geometric and shading normal, octahedral
+//   diffuse   diffuse albedo, GGX alpha
+//   specular  F0, F90
+//   emission  radiance towards the viewer (the sky where nothing is seen)
+#include "lib/scene_buffers.glsl"
+#include "lib/frame.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(binding = UNIT_PASS_A) uniform usampler2D seen_triangles;
+layout(binding = 0, rgba32f) writeonly uniform image2D out_position;
+layout(binding = 1, rgba32f) writeonly uniform image2D out_normals;
+layout(binding = 2, rgba32f) writeonly uniform image2D out_diffuse;
+layout(binding = 3, rgba32f) writeonly uniform image2D out_specular;
+layout(binding = 4, rgba32f) writeonly uniform image2D out_emission;
+
+// Barycentrics where the ray meets the triangle's plane, kept within the triangle: the rasterizer's pixel may lie a
+// 256th of a pixel outside.
+vec2 intersect_triangle(PixelRay ray, uint instance_index, uint primitive) {
+    InstanceRecord instance = load_instance(instance_index);
+    uvec3 vertices = load_vertex_indices(instance, primitive);
+    vec3 p0 = transform_point(instance, load_position_os(vertices.x)) - ray.origin;
+    vec3 p1 = transform_point(instance, load_position_os(vertices.y)) - ray.origin;
+    vec3 p2 = transform_point(instance, load_position_os(vertices.z)) - ray.origin;
+    // Signed volumes between the ray and each edge.
+    float w0 = dot(ray.direction, cross(p1, p2));
+    float w1 = dot(ray.direction, cross(p2, p0));
+    float w2 = dot(ray.direction, cross(p0, p1));
+    float sum = w0 + w1 + w2;
+    if (sum == 0.0f) return vec2(1.0f / 3.0f);
+    float u = clamp(w1 / sum, 0.0f, 1.0f);
+    return vec2(u, clamp(w2 / sum, 0.0f, 1.0f - u));
+}
+
+void store_sky(ivec2 pixel, vec3 direction) {
+    imageStore(out_position, pixel, vec4(0.0f, 0.0f, 0.0f, -1.0f));
+    imageStore(out_normals, pixel, vec4(0.0f));
+    imageStore(out_diffuse, pixel, vec4(0.0f));
+    imageStore(out_specular, pixel, vec4(0.0f));
+    imageStore(out_emission, pixel, vec4(load_environment(direction), 0.0f));
+}
+
+void store_surface(ivec2 pixel, Surface s) {
+    ShadingPoint p = s.point;
+    imageStore(out_position, pixel, vec4(p.position, s.unlit ? -1.0f : p.position_error));
+    imageStore(out_normals, pixel, vec4(encode_octahedral(p.geometric_normal), encode_octahedral(p.shading_normal)));
+    imageStore(out_diffuse, pixel, vec4(p.material.diffuse_albedo, p.material.alpha));
+    imageStore(out_specular, pixel, vec4(p.material.f0, p.material.f90));
+    imageStore(out_emission, pixel, vec4(s.emission, 0.0f));
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (is_outside(pixel)) return;
+    PixelRay ray = pixel_ray(pixel);
+    uvec2 seen = texelFetch(seen_triangles, pixel, 0).xy;
+    if (seen.x == INVALID_INDEX) {
+        store_sky(pixel, ray.direction);
+        return;
+    }
+    vec2 barycentrics = intersect_triangle(ray, seen.x, seen.y);
+    store_surface(pixel, evaluate_surface(seen.x, seen.y, barycentrics, ray.direction));
+}
