@@ -1,12 +1,19 @@
 #include "frame/frame_recorder.h"
 
 #include "core/error.h"
+#include "gl/driver_quirks.h"
 #include "gl/fence.h"
 
 namespace tarn {
 namespace {
 
 constexpr int GROUP_SIZE_PX = 8;
+
+// All the ways in which later passes look at what a compute shader wrote.
+constexpr GLbitfield AFTER_DISPATCH = GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                                      GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                                      GL_TEXTURE_UPDATE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
+                                      GL_FRAMEBUFFER_BARRIER_BIT;
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -63,22 +70,16 @@ PassRecorder& PassRecorder::write_target(const Framebuffer& target, std::initial
 
 void PassRecorder::dispatch(const Program& program, int width_px, int height_px) {
     program.use();
-    const std::size_t first = frame_.stamp();
-    glDispatchCompute(GLuint((width_px + GROUP_SIZE_PX - 1) / GROUP_SIZE_PX),
-                      GLuint((height_px + GROUP_SIZE_PX - 1) / GROUP_SIZE_PX), 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT |
-                    GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
-                    GL_FRAMEBUFFER_BARRIER_BIT);
-    frame_.stamp();
-    frame_.timed_.push_back({name_, first, -1.0});
+    frame_.time_device_work(name_, [&] {
+        glDispatchCompute(GLuint((width_px + GROUP_SIZE_PX - 1) / GROUP_SIZE_PX),
+                          GLuint((height_px + GROUP_SIZE_PX - 1) / GROUP_SIZE_PX), 1);
+        glMemoryBarrier(AFTER_DISPATCH);
+    });
 }
 
 void PassRecorder::draw(const Program& program, const std::function<void()>& draws) {
     program.use();
-    const std::size_t first = frame_.stamp();
-    draws();
-    frame_.stamp();
-    frame_.timed_.push_back({name_, first, -1.0});
+    frame_.time_device_work(name_, draws);
 }
 
 void PassRecorder::run_on_cpu(const std::function<void()>& work) {
@@ -90,7 +91,8 @@ void PassRecorder::run_on_cpu(const std::function<void()>& work) {
 
 // ---- FrameRecorder --------------------------------------------------------------------------------------------------
 
-FrameRecorder::FrameRecorder() : start_(std::chrono::steady_clock::now()) {}
+FrameRecorder::FrameRecorder()
+    : wait_for_each_pass_(find_driver_quirks(query_device_info()).timestamps_at_submission), start_(std::chrono::steady_clock::now()) {}
 
 void FrameRecorder::begin() {
     written_.clear();
@@ -104,7 +106,7 @@ FrameTimings FrameRecorder::end() {
     FrameTimings timings;
     timings.frame_ms = milliseconds_since(start_);
     for (const Timed& timed : timed_) {
-        double ms = timed.cpu_ms;
+        double ms = timed.wall_ms;
         if (ms < 0.0) {
             const std::uint64_t from = queries_[timed.first_query].read_ns();
             const std::uint64_t to = queries_[timed.first_query + 1].read_ns();
@@ -120,6 +122,21 @@ void FrameRecorder::check_written(unsigned id, bool is_texture, const std::strin
     if (!written_.contains({is_texture, id})) {
         throw Error("pass '{}' reads '{}', which no earlier pass of this frame wrote", pass, resource);
     }
+}
+
+void FrameRecorder::time_device_work(const std::string& name, const std::function<void()>& commands) {
+    if (wait_for_each_pass_) {
+        Fence().wait();
+        const auto start = std::chrono::steady_clock::now();
+        commands();
+        Fence().wait();
+        timed_.push_back({name, 0, milliseconds_since(start)});
+        return;
+    }
+    const std::size_t first = stamp();
+    commands();
+    stamp();
+    timed_.push_back({name, first, -1.0});
 }
 
 std::size_t FrameRecorder::stamp() {

@@ -77,13 +77,16 @@ class FrameRecorder {
 
     struct Timed {
         std::string name;
-        std::size_t first_query = 0;  // begin and end in queries_, for work of the device
-        double cpu_ms = -1.0;         // >= 0: work of the CPU
+        std::size_t first_query = 0;  // begin and end in queries_, where the device's clock is used
+        double wall_ms = -1.0;        // >= 0: by the wall clock
     };
 
     void check_written(unsigned id, bool is_texture, const std::string& pass, const std::string& resource) const;
+    // Issues the commands of pass `name` and times them on the device.
+    void time_device_work(const std::string& name, const std::function<void()>& commands);
     std::size_t stamp();
 
+    bool wait_for_each_pass_;  // quirk: the device's clock does not tell when work is done
     std::set<std::pair<bool, unsigned>> written_;  // (is texture, GL name)
     std::vector<TimestampQuery> queries_;
     std::size_t queries_used_ = 0;

@@ -18,9 +18,9 @@ void check_extent(const std::string& name, int width_px, int height_px) {
         throw Error("texture '{}' is {}x{} px, each side must be 1..{}", name, width_px, height_px, limit);
 }
 
-void set_sampling(GLuint id, GLint min_filter, GLint mag_filter, GLint wrap) {
-    glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, min_filter);
-    glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, mag_filter);
+void set_sampling(GLuint id, GLint filter, GLint wrap) {
+    glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, filter);
+    glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, filter);
     glTextureParameteri(id, GL_TEXTURE_WRAP_S, wrap);
     glTextureParameteri(id, GL_TEXTURE_WRAP_T, wrap);
 }
@@ -49,7 +49,7 @@ Texture2D::Texture2D(std::string name, int width_px, int height_px, GLenum inter
     check_extent(name_, width_px, height_px);
     glTextureStorage2D(id(), 1, internal_format, width_px, height_px);
     check_gl(fmt::format("texture '{}' of {}x{} px {}", name_, width_px, height_px, format_.name));
-    set_sampling(id(), GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE);
+    set_sampling(id(), GL_NEAREST, GL_CLAMP_TO_EDGE);
 }
 
 void Texture2D::clear(const glm::vec4& value) {
@@ -82,40 +82,6 @@ void Texture2D::download_bytes(void* bytes) const {
 
 void Texture2D::bind_image(unsigned unit, GLenum access) const {
     glBindImageTexture(unit, id(), 0, GL_FALSE, 0, access, format_.internal_format);
-}
-
-Texture2DArray::Texture2DArray(std::string name, int width_px, int height_px, int layer_count,
-                               int level_count, GLenum internal_format)
-    : name_(std::move(name)),
-      width_px_(width_px),
-      height_px_(height_px),
-      layer_count_(layer_count),
-      level_count_(level_count),
-      format_(get_pixel_format(internal_format)),
-      handle_(create_texture(GL_TEXTURE_2D_ARRAY)) {
-    set_label(GL_TEXTURE, id(), name_);
-    check_extent(name_, width_px, height_px);
-    const GLint64 layer_limit = get_gl_limit(GL_MAX_ARRAY_TEXTURE_LAYERS);
-    if (layer_count < 1 || layer_count > layer_limit)
-        throw Error("texture '{}' has {} layers, must be 1..{}", name_, layer_count, layer_limit);
-    glTextureStorage3D(id(), level_count, internal_format, width_px, height_px, layer_count);
-    check_gl(fmt::format("texture '{}' of {}x{} px {}, {} layers, {} levels", name_, width_px, height_px,
-                         format_.name, layer_count, level_count));
-    set_sampling(id(), format_.is_integer() ? GL_NEAREST_MIPMAP_NEAREST : GL_LINEAR_MIPMAP_LINEAR,
-                 format_.is_integer() ? GL_NEAREST : GL_LINEAR, GL_REPEAT);
-}
-
-void Texture2DArray::upload_bytes(int layer, int level, const void* bytes, std::size_t count_bytes) {
-    TARN_ASSERT(layer >= 0 && layer < layer_count_ && level >= 0 && level < level_count_,
-                "texture '{}' has no layer {} level {}", name_, layer, level);
-    const int width_px = std::max(width_px_ >> level, 1);
-    const int height_px = std::max(height_px_ >> level, 1);
-    TARN_ASSERT(count_bytes == std::size_t(width_px) * std::size_t(height_px) * format_.bytes,
-                "texture '{}' level {} is {}x{} px {}, got {} bytes", name_, level, width_px, height_px,
-                format_.name, count_bytes);
-    set_tight_rows();
-    glTextureSubImage3D(id(), level, 0, 0, layer, width_px, height_px, 1, format_.format, format_.type,
-                        bytes);
 }
 
 BufferTexture::BufferTexture(std::string name, const Buffer& buffer, GLenum format)

@@ -1,4 +1,4 @@
-// GL textures: a screen-sized image, an array of mipmapped images, and a buffer read as texels.
+// GL textures: a screen-sized image, and a buffer read as texels.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -81,46 +81,6 @@ class Texture2D {
     std::string name_;
     int width_px_;
     int height_px_;
-    PixelFormat format_;
-    Handle<detail::delete_texture> handle_;
-};
-
-// Images of one size with mip levels; repeated at the edges, filtered trilinearly.
-class Texture2DArray {
-  public:
-    // `layer_count` images of width x height px and `level_count` mip levels, undefined texels; Error beyond
-    // limits.
-    Texture2DArray(std::string name, int width_px, int height_px, int layer_count, int level_count,
-                   GLenum internal_format);
-
-    // Replaces one level of one layer, row 0 first; exactly as many texels as the level has.
-    template <class T>
-    void upload(int layer, int level, std::span<const T> texels) {
-        static_assert(std::is_trivially_copyable_v<T>);
-        upload_bytes(layer, level, texels.data(), texels.size_bytes());
-    }
-
-    // Fills the smaller levels of all layers from level 0.
-    void generate_mipmaps() { glGenerateTextureMipmap(id()); }
-
-    // Binds to texture unit `unit` (sampler2DArray).
-    void bind(unsigned unit) const { glBindTextureUnit(unit, id()); }
-
-    const std::string& name() const { return name_; }
-    int width_px() const { return width_px_; }
-    int height_px() const { return height_px_; }
-    int layer_count() const { return layer_count_; }
-    int level_count() const { return level_count_; }
-    GLuint id() const { return handle_.id(); }
-
-  private:
-    void upload_bytes(int layer, int level, const void* bytes, std::size_t count_bytes);
-
-    std::string name_;
-    int width_px_;
-    int height_px_;
-    int layer_count_;
-    int level_count_;
     PixelFormat format_;
     Handle<detail::delete_texture> handle_;
 };

@@ -62,7 +62,6 @@ class GlObjects : public testing::Test {
 TEST_F(GlObjects, EachHasItsName) {
     const Buffer buffer("light table", 64, BufferUse::DEVICE);
     const Texture2D texture("normal_ws", 4, 4, GL_RGBA32F);
-    const Texture2DArray array("albedo 4x4", 4, 4, 2, 1, GL_RGBA8);
     const BufferTexture texels("light texels", buffer, GL_RGBA32F);
     const Framebuffer framebuffer("gbuffer", {&texture}, nullptr);
     const VertexArray vertices("meshes");
@@ -70,7 +69,6 @@ TEST_F(GlObjects, EachHasItsName) {
     const Program program = prepare("", "");
     EXPECT_EQ(read_label(GL_BUFFER, buffer.id()), "light table");
     EXPECT_EQ(read_label(GL_TEXTURE, texture.id()), "normal_ws");
-    EXPECT_EQ(read_label(GL_TEXTURE, array.id()), "albedo 4x4");
     EXPECT_EQ(read_label(GL_TEXTURE, texels.id()), "light texels");
     EXPECT_EQ(read_label(GL_FRAMEBUFFER, framebuffer.id()), "gbuffer");
     EXPECT_EQ(read_label(GL_VERTEX_ARRAY, vertices.id()), "meshes");
@@ -221,31 +219,10 @@ TEST_F(GlObjects, ComputeShadersWriteImages) {
     for (int i = 0; i < 64; ++i) ASSERT_EQ(image.download<glm::vec4>()[i], glm::vec4(i, 1, 2, 3));
 }
 
-TEST_F(GlObjects, ArraysKeepTheirLayersAndFilterTheirLevels) {
-    Texture2DArray array("layers", 2, 2, 3, 2, GL_RGBA32F);
-    for (int layer = 0; layer < 3; ++layer) {
-        const std::vector<glm::vec4> texels = {glm::vec4(layer), glm::vec4(layer), glm::vec4(layer + 4),
-                                               glm::vec4(layer + 4)};
-        array.upload(layer, 0, std::span<const glm::vec4>(texels));
-    }
-    array.generate_mipmaps();
-    array.bind(0);
-    const Buffer result("result", 64 * sizeof(float), BufferUse::DEVICE);
-    result.bind_storage(0);
-    compute(
-        "layout(binding = 0) uniform sampler2DArray t; layout(std430, binding = 0) buffer A { float a[]; };",
-        "if (i < 3u) a[i] = textureLod(t, vec3(0.5, 0.5, i), 1.0).x;\n"
-        "else if (i < 6u) a[i] = textureLod(t, vec3(0.25, 1.75, i - 3u), 0.0).x;");
-    const std::vector<float> values = result.download<float>();
-    EXPECT_EQ(std::vector<float>(values.begin(), values.begin() + 6), (std::vector<float>{2, 3, 4, 4, 5, 6}));
-}
-
 TEST_F(GlObjects, TexturesOfImpossibleSizesAreErrors) {
     const std::string message = catch_message<Error>([] { Texture2D("flat", 100, 0, GL_RGBA8); });
     EXPECT_NE(message.find("texture 'flat' is 100x0 px"), std::string::npos) << message;
     EXPECT_THROW(Texture2D("wide", 1 << 24, 1, GL_RGBA8), Error);
-    EXPECT_THROW(Texture2DArray("no layers", 4, 4, 0, 1, GL_RGBA8), Error);
-    EXPECT_THROW(Texture2DArray("too many levels", 4, 4, 1, 9, GL_RGBA8), Error);
     EXPECT_THROW(Texture2D("unknown", 4, 4, 0x1234), Error);
     take_debug_errors();
 }
