@@ -14,7 +14,7 @@ namespace {
 using Attributes = std::map<std::string, int>;
 
 // Many primitives may share one accessor, so a small file can unfold without end.
-constexpr std::size_t MAX_VERTICES = std::size_t(1) << 27;
+constexpr std::size_t MAX_VERTICES = std::size_t(1) << 26;
 
 // Reads `name` for all vertices; empty where the primitive has none.
 template <class Value>
