@@ -1,0 +1,64 @@
+// Runs the reference on a scene written in code and compares its images.
+#pragma once
+
+#include "core/log.h"
+#include "core/tile_test.h"
+#include "reference/reference.h"
+#include "support/toy_scenes.h"
+
+namespace tarn {
+
+// A small image of `world` as seen from `position_ws`, with everything else left at its default.
+inline ReferenceSettings small_settings(const World& world, const glm::dvec3& position_ws,
+                                        const glm::dvec3& target_ws, double vertical_fov_deg) {
+    ReferenceSettings settings;
+    settings.width = settings.height = 32;
+    settings.camera = look_at(world, position_ws, target_ws, vertical_fov_deg, 1.0);
+    return settings;
+}
+
+inline ReferenceResult run_reference(const World& world, const ReferenceSettings& settings) {
+    set_quiet(true);
+    return render_reference(world, *create_embree_tracer(world), settings);
+}
+
+// A sky of the same radiance everywhere.
+inline WorldOptions even_sky(const glm::vec3& radiance) {
+    WorldOptions options;
+    options.environment = Image(16, 8, 3);
+    for (std::size_t i = 0; i < options.environment->pixel_count(); ++i) {
+        for (std::size_t c = 0; c < 3; ++c) options.environment->values[i * 3 + c] = radiance[int(c)];
+    }
+    return options;
+}
+
+// z-test of a rendered image against another, or against known values, in tiles of 8 pixels.
+inline TileTest compare_images(const ReferenceResult& a, const ReferenceResult& b) {
+    return test_tiles({a.radiance, a.variance}, {b.radiance, b.variance}, 8, 1e-3);
+}
+
+inline TileTest compare_with_known(const ReferenceResult& result, const Image& known,
+                                   double rounding = 1e-5) {
+    return test_tiles({result.radiance, result.variance}, {known, Image(known.width, known.height, 3)}, 8,
+                      1e-3, rounding);
+}
+
+inline std::string describe(const TileTest& t) {
+    return fmt::format("tile at ({}, {}), channel {}: {} against {}, standard error {}, p {} of {}", t.x, t.y,
+                       t.channel, t.mean, t.reference_mean, t.standard_error, t.min_p_value, t.threshold);
+}
+
+// The ray through the centre of a pixel, in double precision, relative to the world's origin.
+struct PreciseRay {
+    glm::dvec3 origin;
+    glm::dvec3 direction;
+};
+
+inline PreciseRay pixel_ray(const ReferenceSettings& s, int x, int y) {
+    const double px = 2.0 * (x + 0.5) / s.width - 1.0, py = 1.0 - 2.0 * (y + 0.5) / s.height;
+    const CameraRecord& c = s.camera;
+    return {glm::dvec3(c.position),
+            glm::normalize(glm::dvec3(c.forward) + glm::dvec3(c.right) * px + glm::dvec3(c.up) * py)};
+}
+
+}  // namespace tarn
