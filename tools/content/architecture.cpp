@@ -39,7 +39,7 @@ Shape make_ground_walls() {
 
 Shape make_ground_stone() {
     Shape shape;
-    append(shape, make_column(0.27f, 2.1f - TERRACE_M, 16), move_by({-HALF_BAY, TERRACE_M, 0}));
+    append(shape, make_column(0.27f, 2.1f - TERRACE_M, 14), move_by({-HALF_BAY, TERRACE_M, 0}));
     append(shape, make_box({-HALF_BAY, -0.2f, BACK_Z - 0.1f}, {HALF_BAY, TERRACE_M, 0.5f}));
     append(shape, make_box({-HALF_BAY, 3.8f, BACK_Z - 0.1f}, {HALF_BAY, UPPER_FLOOR_M, 0.4f}));
     append(shape, make_box({-HALF_BAY, 3.68f, -0.3f}, {HALF_BAY, 3.82f, 0.32f}));
@@ -50,8 +50,8 @@ Shape make_upper_stone() {
     Shape shape;
     const float spring = UPPER_FLOOR_M + 1.75f;
     for (const float x : {-HALF_BAY, 0.0f}) {
-        append(shape, make_column(0.14f, 1.75f, 12), move_by({x, UPPER_FLOOR_M, 0}));
-        const ArchSize arch{HALF_BAY, CORNICE_M - spring, 0.34f, 1.14f, 0.12f, 10};
+        append(shape, make_column(0.14f, 1.75f, 10), move_by({x, UPPER_FLOOR_M, 0}));
+        const ArchSize arch{HALF_BAY, CORNICE_M - spring, 0.34f, 1.14f, 0.12f, 8};
         append(shape, make_arch(arch), move_by({x + 0.5f * HALF_BAY, spring, 0}));
     }
     append(shape, make_box({-HALF_BAY, CORNICE_M - 0.05f, -0.25f}, {HALF_BAY, CORNICE_M + 0.3f, 0.2f}));
@@ -62,7 +62,7 @@ Shape make_parapet() {
     Shape shape;
     append(shape, make_box({-HALF_BAY, PARAPET_M - 0.1f, -0.09f}, {HALF_BAY, PARAPET_M, 0.09f}));
     append(shape, make_box({-HALF_BAY, 0.06f, -0.07f}, {HALF_BAY, 0.14f, 0.07f}));
-    const Shape baluster = make_lathe({{0.035f, 0.1f}, {0.055f, 0.3f}, {0.03f, 0.6f}, {0.045f, 0.87f}}, 6);
+    const Shape baluster = make_lathe({{0.035f, 0.1f}, {0.055f, 0.3f}, {0.03f, 0.6f}, {0.045f, 0.87f}}, 5);
     for (int i = 0; i < 10; ++i) {
         if (i % 5 == 0) continue;
         append(shape, baluster, move_by({-HALF_BAY + 0.3f * static_cast<float>(i), 0, 0}));
@@ -110,6 +110,7 @@ Shape make_roof() {
         append_polygon(tile, {end[i + 1], end[i], end[i] + back, end[i + 1] + back});
     }
     append_polygon(tile, end);
+    append_polygon(tile, {{-RADIUS, 0, -length}, {RADIUS, 0, -length}, {RADIUS, 0, 0}, {-RADIUS, 0, 0}});
     glm::mat4 sloped(1.0f);  // turns -Z along the slope and +Y away from it
     sloped[1] = {0, up.y, up.x, 0};
     sloped[2] = {0, -along.y, -along.x, 0};
@@ -117,6 +118,9 @@ Shape make_roof() {
         const float x = -HALF_BAY + BAY_M * (static_cast<float>(i) + 0.5f) / TILES;
         append(shape, tile, move_by({x, EAVE_Y, EAVE_Z + 0.05f}) * sloped);
     }
+    // The ridge stone closes the tiles' upper ends.
+    append(shape, make_box({-HALF_BAY, ridge.y - 0.2f, ridge.x - 0.12f},
+                           {HALF_BAY, ridge.y + 0.16f, ridge.x + 0.1f}));
     return shape;
 }
 
@@ -141,17 +145,33 @@ void append_opening(Opening kind, const glm::vec3& foot, Shape& frame, Shape& wo
     }
 }
 
-int add_back_wall(GltfWriter& writer, const CourtMaterials& m, Opening ground, Opening upper,
-                  const std::string& name) {
+// Two bays of back wall, two storeys high.
+int add_back_wall(GltfWriter& writer, const CourtMaterials& m, const std::array<Opening, 4>& openings) {
     Shape frame, wood, panes;
-    append_opening(ground, {0, TERRACE_M, BACK_Z}, frame, wood, panes);
-    append_opening(upper, {0, UPPER_FLOOR_M, BACK_Z}, frame, wood, panes);
-    const Shape wall =
-        make_box({-HALF_BAY, -0.2f, BACK_Z - OUTER_WALL_M}, {HALF_BAY, RIDGE_M - 0.25f, BACK_Z});
-    std::vector<Part> parts = {{wall, m.plaster}, {frame, m.dressed_stone}};
-    if (!wood.positions.empty()) parts.push_back({wood, m.paint_blue});
-    if (!panes.positions.empty()) parts.push_back({panes, m.window});
-    return writer.add_mesh(name, parts);
+    append_opening(openings[0], {-HALF_BAY, TERRACE_M, BACK_Z}, frame, wood, panes);
+    append_opening(openings[1], {HALF_BAY, TERRACE_M, BACK_Z}, frame, wood, panes);
+    append_opening(openings[2], {-HALF_BAY, UPPER_FLOOR_M, BACK_Z}, frame, wood, panes);
+    append_opening(openings[3], {HALF_BAY, UPPER_FLOOR_M, BACK_Z}, frame, wood, panes);
+    const Shape wall = make_box({-BAY_M, -0.2f, BACK_Z - OUTER_WALL_M}, {BAY_M, RIDGE_M - 0.25f, BACK_Z});
+    return writer.add_mesh(
+        "back wall", {{wall, m.plaster}, {frame, m.dressed_stone}, {wood, m.paint_blue}, {panes, m.window}});
+}
+
+// The same shape in two neighbouring bays.
+Shape pair_of(const Shape& bay) {
+    Shape pair;
+    for (const float x : {-HALF_BAY, HALF_BAY}) append(pair, bay, move_by({x, 0, 0}));
+    return pair;
+}
+
+// Both storeys of two neighbouring bays: arcades, floors and ceilings.
+int add_bay_pair(GltfWriter& writer, const CourtMaterials& m) {
+    Shape stone = make_ground_stone(), beams = make_ground_ceiling();
+    append(stone, make_upper_stone());
+    append(beams, make_upper_ceiling());
+    return writer.add_mesh("bay pair", {{pair_of(make_ground_walls()), m.ashlar},
+                                        {pair_of(stone), m.dressed_stone},
+                                        {pair_of(beams), m.dark_wood}});
 }
 
 void add_towers(GltfWriter& writer, const CourtMaterials& m) {
@@ -193,6 +213,11 @@ Placement Side::bay(int index) const {
     return {to_world({along, 0, 0}), rotate_about({0, 1, 0}, turn_rad)};
 }
 
+Placement Side::bay_pair(int index) const {
+    const float along = BAY_M * (2.0f * static_cast<float>(index) + 1.0f - 0.5f * static_cast<float>(bays));
+    return {to_world({along, 0, 0}), rotate_about({0, 1, 0}, turn_rad)};
+}
+
 glm::vec3 Side::to_world(const glm::vec3& local) const {
     return middle + glm::vec3(turn_y(turn_rad) * glm::vec4(local, 0.0f));
 }
@@ -209,28 +234,27 @@ std::array<Side, 4> court_sides() {
 void add_architecture(GltfWriter& writer, const CourtMaterials& m) {
     add_paving(writer, m);
     add_towers(writer, m);
-    const int ground = writer.add_mesh("ground bay", {{make_ground_walls(), m.ashlar},
-                                                      {make_ground_stone(), m.dressed_stone},
-                                                      {make_ground_ceiling(), m.dark_wood}});
-    const int upper = writer.add_mesh(
-        "upper bay", {{make_upper_stone(), m.dressed_stone}, {make_upper_ceiling(), m.dark_wood}});
+    const int bay_pair = add_bay_pair(writer, m);
+    const int roof = writer.add_mesh("roof", {{pair_of(make_roof()), m.clay}});
     const int parapet = writer.add_mesh("parapet", {{make_parapet(), m.dressed_stone}});
-    const int roof = writer.add_mesh("roof", {{make_roof(), m.clay}});
-    const int walls[3] = {add_back_wall(writer, m, Opening::WINDOW, Opening::DOOR, "back wall a"),
-                          add_back_wall(writer, m, Opening::DOOR, Opening::WINDOW, "back wall b"),
-                          add_back_wall(writer, m, Opening::NICHE, Opening::NICHE, "back wall c")};
+    using enum Opening;
+    const int walls[2] = {add_back_wall(writer, m, {WINDOW, DOOR, DOOR, WINDOW}),
+                          add_back_wall(writer, m, {NICHE, WINDOW, WINDOW, NICHE})};
     const std::array<Side, 4> sides = court_sides();
     for (int s = 0; s < 4; ++s) {
         const Side& side = sides[s];
         const std::string name = side.name;
-        for (int bay = 0; bay < side.bays; ++bay) {
-            Placement place = side.bay(bay);
-            writer.add_node(name + " ground bay", place, ground);
-            writer.add_node(name + " upper bay", place, upper);
+        for (int pair = 0; pair < side.bays / 2; ++pair) {
+            const Placement place = side.bay_pair(pair);
+            writer.add_node(name + " bays", place, bay_pair);
             writer.add_node(name + " roof", place, roof);
-            writer.add_node(name + " back wall", place, walls[(bay + s) % 3]);
+            writer.add_node(name + " back wall", place, walls[(pair + s) % 2]);
+        }
+        for (int bay = 0; bay < side.bays; ++bay) {
+            if (s == STAIR_SIDE && bay == STAIR_BAY) continue;
+            Placement place = side.bay(bay);
             place.translation.y += UPPER_FLOOR_M;
-            if (s != STAIR_SIDE || bay != STAIR_BAY) writer.add_node(name + " parapet", place, parapet);
+            writer.add_node(name + " parapet", place, parapet);
         }
     }
 }

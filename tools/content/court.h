@@ -24,7 +24,7 @@ inline constexpr int COLORS = 8;
 
 struct CourtMaterials {
     int cobbles, ashlar, dressed_stone, plaster, planks, dark_wood, clay, bark, leaves, soil;
-    int brass, iron, water, puddle, window, rope, terracotta, paint_blue;
+    int brass, iron, water, puddle, window, lamp, bright_lamp, terracotta, paint_blue;
     std::array<int, 4> cloth;
     std::array<int, 4> fruit;
     std::array<int, COLORS> glow;
@@ -38,8 +38,10 @@ struct Side {
     int bays;
     double turn_rad;   // about +Y
     glm::vec3 middle;  // of the arcade's centre line, on the ground
-    // World placement of a point given in the frame of the bay's middle.
+    // The frame of one bay: its origin on the ground in the middle of the bay.
     Placement bay(int index) const;
+    // The frame of bays 2 * index and 2 * index + 1 together.
+    Placement bay_pair(int index) const;
     glm::vec3 to_world(const glm::vec3& local) const;
 };
 std::array<Side, 4> court_sides();

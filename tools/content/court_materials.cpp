@@ -56,19 +56,21 @@ class Maker {
 };
 
 void add_emitters(GltfWriter& writer, Maker& make, CourtMaterials& m, std::uint64_t seed) {
-    m.glow = {make.glowing("lantern amber", {46.0f, 21.0f, 5.0f}),
-              make.glowing("lantern gold", {40.0f, 26.0f, 8.0f}),
-              make.glowing("lantern red", {38.0f, 5.0f, 2.5f}),
-              make.glowing("lantern rose", {34.0f, 7.0f, 15.0f}),
-              make.glowing("lantern green", {6.0f, 27.0f, 9.0f}),
-              make.glowing("lantern teal", {3.0f, 22.0f, 24.0f}),
-              make.glowing("lantern blue", {5.0f, 11.0f, 40.0f}),
-              make.glowing("lantern violet", {20.0f, 6.0f, 38.0f})};
+    m.glow = {make.glowing("lantern amber", {14.0f, 3.6f, 0.4f}),
+              make.glowing("lantern gold", {13.0f, 5.6f, 0.9f}),
+              make.glowing("lantern red", {13.0f, 0.7f, 0.25f}),
+              make.glowing("lantern rose", {12.0f, 1.0f, 3.2f}),
+              make.glowing("lantern green", {1.0f, 8.5f, 1.3f}),
+              make.glowing("lantern teal", {0.5f, 6.5f, 7.5f}),
+              make.glowing("lantern blue", {0.7f, 2.2f, 16.0f}),
+              make.glowing("lantern violet", {5.5f, 0.8f, 15.0f})};
+    m.lamp = make.glowing("lamp", {52.0f, 23.0f, 6.0f});
+    m.bright_lamp = make.glowing("bright lamp", {90.0f, 52.0f, 20.0f});
     const int leaded = writer.add_texture("leaded window", make_leaded_window(SMALL_PX, seed));
     m.window = writer.add_material({.name = "window",
                                     .base_color = glm::vec3(0.02f),
                                     .roughness = 0.15f,
-                                    .radiance = glm::vec3(4.5f),
+                                    .radiance = glm::vec3(2.4f),
                                     .emission_texture = leaded});
 }
 
@@ -91,7 +93,6 @@ CourtMaterials make_court_materials(GltfWriter& writer, std::uint64_t seed) {
     m.terracotta = make.plain("terracotta", {0.45f, 0.18f, 0.09f}, 0.65f);
     m.bark = make.plain("bark", {0.11f, 0.075f, 0.05f}, 0.95f);
     m.soil = make.plain("soil", {0.05f, 0.035f, 0.025f}, 1.0f);
-    m.rope = make.plain("rope", {0.06f, 0.045f, 0.03f}, 0.9f);
     m.brass = make.plain("brass", {0.86f, 0.62f, 0.28f}, 0.22f, 1.0f);
     m.iron = make.plain("iron", {0.18f, 0.17f, 0.16f}, 0.45f, 1.0f);
     m.water = make.plain("water", {0.006f, 0.014f, 0.018f}, 0.06f);

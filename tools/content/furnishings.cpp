@@ -21,7 +21,7 @@ Shape make_puddle(float radius, const Random& random, std::uint64_t index) {
 }
 
 void add_puddles(GltfWriter& writer, const CourtMaterials& m, const Random& random) {
-    constexpr glm::vec2 PLACES[] = {{4.6f, 5.6f},   {-4.0f, 3.4f}, {1.5f, -5.2f}, {8.2f, 1.4f},
+    constexpr glm::vec2 PLACES[] = {{4.6f, 5.6f},   {-4.0f, 3.4f}, {1.5f, -5.2f}, {5.2f, 2.2f},
                                     {-7.5f, -4.5f}, {6.5f, 8.4f},  {-1.5f, 7.6f}};
     Shape shape;
     std::uint64_t index = 0;
@@ -78,7 +78,7 @@ int add_barrel_mesh(GltfWriter& writer, const CourtMaterials& m) {
     for (const glm::vec2 hoop : {glm::vec2(0.06f, 0.293f), glm::vec2(0.25f, 0.333f), glm::vec2(0.55f, 0.333f),
                                  glm::vec2(0.74f, 0.303f)}) {
         append(hoops,
-               make_lathe({{hoop.y - 0.03f, 0}, {hoop.y, 0}, {hoop.y, 0.045f}, {hoop.y - 0.03f, 0.045f}}, 16),
+               make_lathe({{hoop.y - 0.03f, 0}, {hoop.y, 0}, {hoop.y, 0.045f}, {hoop.y - 0.03f, 0.045f}}, 12),
                move_by({0, hoop.x, 0}));
     }
     return writer.add_mesh("barrel", {{staves, m.planks}, {hoops, m.iron}});

@@ -65,7 +65,7 @@ LanternKind make_pane_lantern(float width, float height, float drop) {
         const glm::mat4 turned = turn_y(0.5 * PI * i);
         append(
             kind.glow,
-            make_quad({-0.9f * half, low + 0.02f, 0.9f * half}, {1.8f * half, 0, 0}, {0, height - 0.04f, 0}),
+            make_quad({-0.9f * half, low + 0.005f, 0.9f * half}, {1.8f * half, 0, 0}, {0, height - 0.01f, 0}),
             turned);
         append(kind.frame,
                make_box({half - 0.015f, low, half - 0.015f}, {half + 0.015f, -drop, half + 0.015f}), turned);
@@ -81,18 +81,16 @@ LanternKind make_pane_lantern(float width, float height, float drop) {
 
 // Gathers lanterns by colour, so that a whole string becomes one mesh.
 struct LanternGroup {
-    Shape frame;
-    Shape rope;
+    Shape dark;  // frames and ropes
     std::array<Shape, COLORS> glow;
 
     void add(const LanternKind& kind, int color, const glm::mat4& place) {
         append(glow[color], kind.glow, place);
-        append(frame, kind.frame, place);
+        append(dark, kind.frame, place);
     }
     int add_mesh(GltfWriter& writer, const std::string& name, const CourtMaterials& m) const {
         std::vector<Part> parts;
-        if (!rope.positions.empty()) parts.push_back({rope, m.rope});
-        if (!frame.positions.empty()) parts.push_back({frame, m.dark_wood});
+        parts.push_back({dark, m.dark_wood});
         for (int color = 0; color < COLORS; ++color) {
             if (!glow[color].positions.empty()) parts.push_back({glow[color], m.glow[color]});
         }
@@ -139,15 +137,15 @@ std::vector<StringSpan> make_spans() {
 
 // In the string's own frame: the origin at its start, so that a turn about its chord swings it.
 LanternGroup hang_string(const StringSpan& span, const Random& random, std::uint64_t index) {
-    static const LanternKind KINDS[3] = {make_round_lantern(0.13f), make_tall_lantern(0.085f),
-                                         make_star_lantern(0.12f)};
+    static const LanternKind KINDS[3] = {make_round_lantern(0.16f), make_tall_lantern(0.11f),
+                                         make_star_lantern(0.15f)};
     const glm::vec3 chord = span.end - span.start;
     const auto at = [&](float t) { return chord * t - glm::vec3(0, 4.0f * span.sag_m * t * (1.0f - t), 0); };
     LanternGroup group;
     std::vector<glm::vec3> path;
     constexpr int PIECES = 20;
     for (int i = 0; i <= PIECES; ++i) path.push_back(at(static_cast<float>(i) / PIECES));
-    group.rope = make_tube(path, 0.012f, 4);
+    group.dark = make_tube(path, 0.012f, 4);
     const int count = static_cast<int>(glm::length(chord) / 0.85f);
     const int first_color = static_cast<int>(random.bits(index, 0) % COLORS);
     for (int i = 0; i < count; ++i) {
@@ -181,13 +179,12 @@ void add_strings(GltfWriter& writer, const CourtMaterials& m, const Random& rand
 void add_arcade_lanterns(GltfWriter& writer, const CourtMaterials& m) {
     const LanternKind ground = make_pane_lantern(0.2f, 0.3f, 0.5f),
                       upper = make_pane_lantern(0.18f, 0.26f, 0.45f);
-    constexpr int TINTS[3] = {0, 1, 0};
     int ground_mesh[3], upper_mesh[3];
     for (int i = 0; i < 3; ++i) {
-        ground_mesh[i] = writer.add_mesh(
-            "arcade lantern", {{ground.glow, m.glow[TINTS[i]]}, {ground.frame, i == 2 ? m.brass : m.iron}});
-        upper_mesh[i] = writer.add_mesh(
-            "gallery lantern", {{upper.glow, m.glow[TINTS[i]]}, {upper.frame, i == 2 ? m.brass : m.iron}});
+        ground_mesh[i] = writer.add_mesh("arcade lantern", {{ground.glow, i == 1 ? m.bright_lamp : m.lamp},
+                                                            {ground.frame, i == 2 ? m.brass : m.iron}});
+        upper_mesh[i] = writer.add_mesh("gallery lantern",
+                                        {{upper.glow, m.lamp}, {upper.frame, i == 2 ? m.brass : m.iron}});
     }
     int number = 0;
     for (const Side& side : court_sides()) {
@@ -220,7 +217,7 @@ void add_garlands(GltfWriter& writer, const CourtMaterials& m, const Random& ran
             };
             std::vector<glm::vec3> path;
             for (int i = 0; i <= 8; ++i) path.push_back(at(static_cast<float>(i) / 8.0f));
-            append(group.rope, make_tube(path, 0.008f, 3));
+            append(group.dark, make_tube(path, 0.008f, 3));
             for (int i = 0; i < 6; ++i) {
                 const int color = static_cast<int>(random.bits(number, i) % 5);
                 group.add(small, color < 4 ? color : 5, move_by(at((static_cast<float>(i) + 0.5f) / 6.0f)));
@@ -240,7 +237,7 @@ void add_drifting(GltfWriter& writer, const CourtMaterials& m, const Random& ran
     LanternKind cup;
     cup.glow = make_lathe({{0.09f, 0.02f}, {0.13f, 0.14f}}, 6);
     append(cup.frame, make_lathe({{0, -0.02f}, {0.16f, 0.0f}, {0.09f, 0.025f}, {0, 0.025f}}, 8));
-    append(cup.frame, make_lathe({{0, 0.11f}, {0.125f, 0.135f}, {0, 0.136f}}, 6));
+    append(cup.frame, make_lathe({{0, 0.12f}, {0.145f, 0.14f}, {0, 0.15f}}, 6));
     constexpr int SKY = 7, CUPS = 8, KEYS = 12;
     for (int i = 0; i < SKY + CUPS; ++i) {
         const bool in_sky = i < SKY;
@@ -276,7 +273,7 @@ void add_tree_lanterns(GltfWriter& writer, const CourtMaterials& m, const Random
             const double angle = 2.0 * PI * (i + 0.5 * random.unit(index, 0)) / 16.0;
             const float radius = random.between(0.9f, 1.7f, index, 1),
                         height = random.between(2.5f, 3.6f, index, 2);
-            group.add(round, static_cast<int>(random.bits(index, 3) % COLORS),
+            group.add(round, (2 * number + static_cast<int>(random.bits(index, 3) % 3) * 3) % COLORS,
                       move_by({radius * cosine(angle), height, radius * sine(angle)}));
         }
         writer.add_node("tree lanterns", {tree}, group.add_mesh(writer, "tree lanterns", m));

@@ -106,7 +106,7 @@ int add_ivy_mesh(GltfWriter& writer, const CourtMaterials& m, const Random& rand
 }  // namespace
 
 std::array<glm::vec3, 4> tree_places() {
-    return {{{-7.2f, 0, -3.2f}, {7.0f, 0, -4.6f}, {-6.4f, 0, 5.4f}, {7.4f, 0, 5.2f}}};
+    return {{{-7.2f, 0, -3.2f}, {7.0f, 0, -4.6f}, {-6.4f, 0, 5.4f}, {9.0f, 0, 0.6f}}};
 }
 
 void add_plants(GltfWriter& writer, const CourtMaterials& m, const Random& random) {

@@ -11,7 +11,7 @@ namespace tarn::content {
 inline constexpr double PI = 3.14159265358979323846;
 
 // Sine and cosine from IEEE additions and multiplications alone (libm may differ between machines); error
-// below 1e-14 for |angle| < 1e4.
+// below 1e-14 for angles of a few turns.
 double sine(double angle_rad);
 double cosine(double angle_rad);
 

@@ -87,8 +87,8 @@ void append_heap(Shape& wood, Shape& fruit, const glm::vec3& place, const Random
         append(wood, make_box({-0.24f, 0.0f, side * 0.19f - 0.012f}, {0.24f, 0.125f, side * 0.19f + 0.012f}),
                moved);
     }
-    const Shape ball = make_sphere(0.05f, 8, 5);
-    for (int i = 0; i < 20; ++i) {
+    const Shape ball = make_sphere(0.052f, 6, 4);
+    for (int i = 0; i < 16; ++i) {
         const bool upper = i >= 12;
         const int column = upper ? (i - 12) % 4 : i % 4, row = upper ? (i - 12) / 4 : i / 4;
         const auto dimension = static_cast<std::uint64_t>(i);
@@ -179,8 +179,8 @@ int add_stall_lanterns(GltfWriter& writer, const CourtMaterials& m, int color) {
     for (int i = 0; i < 6; ++i) {
         const glm::mat4 place = move_by({-1.25f + 0.5f * static_cast<float>(i), 1.86f, HALF_DEPTH + 0.12f});
         append(glow[i % 2], make_lathe({{0.04f, 0}, {0.075f, 0.07f}, {0.04f, 0.14f}}, 5), place);
-        append(frame, make_lathe({{0, -0.01f}, {0.045f, 0.002f}, {0, 0.01f}}, 5), place);
-        append(frame, make_lathe({{0, 0.135f}, {0.045f, 0.138f}, {0, 0.16f}}, 5), place);
+        append(frame, make_lathe({{0, -0.012f}, {0.05f, -0.002f}, {0, 0.01f}}, 5), place);
+        append(frame, make_lathe({{0, 0.13f}, {0.05f, 0.142f}, {0, 0.16f}}, 5), place);
         append(frame, make_tube({{0, 0.15f, 0}, {0, 0.4f, -0.06f}}, 0.006f, 3), place);
     }
     return writer.add_mesh("stall lanterns",
