@@ -1,54 +1,36 @@
-// Exposure, Khronos PBR Neutral tone mapping, sRGB.
+// The shared display transform over whole images, and automatic exposure.
 #include "core/display.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <vector>
 
 #include "core/error.h"
+#include "shared/math/display.h"
 
 namespace tarn {
 
 float encode_srgb(float linear) {
-    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+    return srgb_from_linear(linear);
 }
 
 float decode_srgb(float encoded) {
-    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+    return linear_from_srgb(encoded);
 }
 
 void tone_map_neutral(float rgb[3]) {
-    constexpr float FRESNEL =
-        0.04f;  // the white glare of a dielectric, taken off so that base colours stay as given
-    constexpr float COMPRESSION_START = 0.8f - FRESNEL;
-    constexpr float DESATURATION = 0.15f;
-    const float darkest = std::min({rgb[0], rgb[1], rgb[2]});
-    const float offset = darkest < 2.0f * FRESNEL ? darkest - darkest * darkest / (4.0f * FRESNEL) : FRESNEL;
-    for (int c = 0; c < 3; ++c) rgb[c] -= offset;
-    const float peak = std::max({rgb[0], rgb[1], rgb[2]});
-    if (peak < COMPRESSION_START) return;
-    const float headroom = 1.0f - COMPRESSION_START;
-    const float compressed_peak = 1.0f - headroom * headroom / (peak + headroom - COMPRESSION_START);
-    const float colour = 1.0f / (DESATURATION * (peak - compressed_peak) + 1.0f);
-    for (int c = 0; c < 3; ++c) {
-        const float compressed = rgb[c] * (compressed_peak / peak);
-        rgb[c] = compressed_peak + (compressed - compressed_peak) * colour;
-    }
+    const vec3 mapped = map_tone_neutral(vec3(rgb[0], rgb[1], rgb[2]));
+    for (int c = 0; c < 3; ++c) rgb[c] = mapped[c];
 }
 
 Image display_from_radiance(const Image& radiance, float exposure_ev) {
     TARN_ASSERT(radiance.channels == 3, "{} channels, 3 are needed", radiance.channels);
-    constexpr float BRIGHTEST = 1e9f;  // white after tone mapping, far from overflow
     const float scale = std::exp2(exposure_ev);
     Image display(radiance.width, radiance.height, 3);
     for (std::size_t i = 0; i < radiance.values.size(); i += 3) {
-        float rgb[3];
-        for (int c = 0; c < 3; ++c) {
-            const float exposed = radiance.values[i + c] * scale;
-            rgb[c] = exposed > 0.0f ? std::min(exposed, BRIGHTEST) : 0.0f;  // NaN becomes 0
-        }
-        tone_map_neutral(rgb);
-        for (int c = 0; c < 3; ++c) display.values[i + c] = std::clamp(encode_srgb(rgb[c]), 0.0f, 1.0f);
+        const float* rgb = &radiance.values[i];
+        const vec3 colour = display_colour(vec3(rgb[0], rgb[1], rgb[2]), scale);
+        for (int c = 0; c < 3; ++c) display.values[i + c] = colour[c];
     }
     return display;
 }

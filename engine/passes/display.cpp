@@ -1,0 +1,73 @@
+#include "passes/display.h"
+
+#include <array>
+#include <cmath>
+
+#include "core/error.h"
+#include "shared/interface/bindings.h"
+
+namespace tarn {
+namespace {
+
+constexpr std::array<DisplayViewInfo, 8> VIEWS = {{
+    {"radiance", "TARN_VIEW_RADIANCE", "The picture: exposed, tone-mapped, sRGB"},
+    {"luminance", "TARN_VIEW_LUMINANCE",
+     "False colour, one step a stop: black 2^-8 or less of middle grey, green at it, white 2^8 or more"},
+    {"albedo", "TARN_VIEW_ALBEDO", "Diffuse albedo + F0, sRGB"},
+    {"emission", "TARN_VIEW_EMISSION",
+     "Light sources, the sky and unlit materials alone, exposed as the picture"},
+    {"geometric normals", "TARN_VIEW_GEOMETRIC_NORMALS", "Triangle normals: red +X, green +Y, blue +Z"},
+    {"shading normals", "TARN_VIEW_SHADING_NORMALS",
+     "Interpolated and mapped normals: red +X, green +Y, blue +Z"},
+    {"position error", "TARN_VIEW_POSITION_ERROR",
+     "False colour of the bound on the position's rounding error: black 1 nm or less, white 1 mm or more"},
+    {"primitives", "TARN_VIEW_PRIMITIVES", "One colour a triangle"},
+}};
+
+}  // namespace
+
+std::span<const DisplayViewInfo> display_views() {
+    return VIEWS;
+}
+
+DisplayView parse_display_view(const std::string& name) {
+    std::string names;
+    for (std::size_t i = 0; i < VIEWS.size(); ++i) {
+        if (name == VIEWS[i].name) return DisplayView(i);
+        names += (i == 0 ? "" : ", ") + std::string(VIEWS[i].name);
+    }
+    throw Error("view '{}' is none of: {}", name, names);
+}
+
+DisplayPass::DisplayPass(ProgramLibrary& programs, int width_px, int height_px)
+    : programs_(programs),
+      picture_("display/picture", width_px, height_px, GL_RGBA8),
+      framebuffer_("display/picture", {&picture_}, nullptr) {}
+
+const Texture2D& DisplayPass::record(FrameRecorder& frame, const Texture2D& radiance, const GBuffer& gbuffer,
+                                     DisplayView view, float exposure_ev) {
+    const Program& program = programs_.compute("display", {VIEWS[std::size_t(view)].define});
+    program.set("exposure_scale", std::exp2(exposure_ev));
+    // Bound directly: these come from a finished frame, whatever recorder made them.
+    radiance.bind(UNIT_PASS_A);
+    gbuffer.seen.bind(UNIT_PASS_B);
+    gbuffer.position.bind(UNIT_POSITION);
+    gbuffer.normals.bind(UNIT_NORMALS);
+    gbuffer.diffuse.bind(UNIT_DIFFUSE);
+    gbuffer.specular.bind(UNIT_SPECULAR);
+    gbuffer.emission.bind(UNIT_EMISSION);
+    frame.pass("display")
+        .write_image(0, picture_)
+        .dispatch(program, picture_.width_px(), picture_.height_px());
+    return picture_;
+}
+
+void DisplayPass::present(const glm::ivec2& window_size_px) const {
+    const bool same_size = window_size_px == glm::ivec2(picture_.width_px(), picture_.height_px());
+    // Row 0 of our pictures is the top one, row 0 of a window the bottom one.
+    glBlitNamedFramebuffer(framebuffer_.id(), 0, 0, 0, picture_.width_px(), picture_.height_px(), 0,
+                           window_size_px.y, window_size_px.x, 0, GL_COLOR_BUFFER_BIT,
+                           same_size ? GL_NEAREST : GL_LINEAR);
+}
+
+}  // namespace tarn
