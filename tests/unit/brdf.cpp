@@ -334,22 +334,27 @@ struct FurnaceResult {
     double angle_deg = 0.0;
 };
 
+// The brightest view of one white material.
+void find_brightest_view(const Brdf& brdf, double f0, double weight, double metallic,
+                         FurnaceResult& brightest) {
+    for (const double alpha : {1e-3, 0.01, 0.05, 0.1, 0.25, 0.5, 0.75, 1.0}) {
+        for (const double angle : {0.0, 30.0, 60.0, 75.0, 85.0, 89.0, 89.9, 89.99}) {
+            if (!is_resolved(alpha, angle)) continue;
+            const SurfaceMaterial m = white_material(f0, weight, metallic, alpha);
+            const double albedo = directional_albedo(brdf, m, view_at(angle), 4000);
+            if (albedo > brightest.albedo) brightest = {albedo, alpha, f0, weight, metallic, angle};
+        }
+    }
+}
+
 // The brightest white material over roughness, f0, specular weight, metallic and view.
 FurnaceResult find_brightest(const Brdf& brdf) {
     FurnaceResult brightest;
-    for (const double alpha : {1e-3, 0.01, 0.05, 0.1, 0.25, 0.5, 0.75, 1.0}) {
+    find_brightest_view(brdf, 0.04, 1.0, 1.0, brightest);  // a metal has no other f0
+    for (const double metallic : {0.0, 0.5}) {
+        find_brightest_view(brdf, 0.04, 0.0, metallic, brightest);  // nor has a surface without reflectance
         for (const double f0 : {0.04, 0.5, 1.0}) {
-            for (const double weight : {0.0, 0.5, 1.0}) {
-                for (const double metallic : {0.0, 0.5, 1.0}) {
-                    for (const double angle : {0.0, 30.0, 60.0, 75.0, 85.0, 89.0, 89.9, 89.99}) {
-                        if (!is_resolved(alpha, angle)) continue;
-                        const SurfaceMaterial m = white_material(f0, weight, metallic, alpha);
-                        const double albedo = directional_albedo(brdf, m, view_at(angle), 5000);
-                        if (albedo > brightest.albedo)
-                            brightest = {albedo, alpha, f0, weight, metallic, angle};
-                    }
-                }
-            }
+            for (const double weight : {0.5, 1.0}) find_brightest_view(brdf, f0, weight, metallic, brightest);
         }
     }
     return brightest;

@@ -121,6 +121,14 @@ TEST(TriangleLight, SendsNothingBehindUnlessItIsDoubleSided) {
     EXPECT_EQ(in.direction, vec3(0, 0, 1));
 }
 
+TEST(TriangleLight, OfAMirroredInstanceShinesToTheOtherSideOfItsWinding) {
+    const Light light = make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, LIGHT_TRIANGLE | LIGHT_MIRRORED);
+    EXPECT_EQ(incident_from_triangle(light, vec2(0.0f), vec3(1.0f), vec3(0, 0, 2)).value, vec3(0.0f));
+    const IncidentLight in = incident_from_triangle(light, vec2(0.0f), vec3(1.0f), vec3(0, 0, -2));
+    EXPECT_EQ(in.value, vec3(0.25f));
+    EXPECT_EQ(in.light_normal, vec3(0, 0, -1));
+}
+
 TEST(TriangleLight, SendsNothingEdgeOn) {
     for (const uint flags : {LIGHT_TRIANGLE, LIGHT_TRIANGLE | LIGHT_DOUBLE_SIDED}) {
         const Light light = make_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, flags);
