@@ -1,0 +1,86 @@
+#include "ui/overlay.h"
+
+#include <imgui.h>
+#include <imgui_impl_glfw.h>
+#include <imgui_impl_opengl3.h>
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include "core/error.h"
+
+namespace tarn {
+namespace {
+
+void choose_style(GLFWwindow* handle) {
+    ImGui::StyleColorsDark();
+    ImGuiStyle& style = ImGui::GetStyle();
+    style.WindowRounding = 4.0f;
+    style.FrameRounding = 2.0f;
+    style.ItemSpacing = ImVec2(6.0f, 3.0f);
+    style.Colors[ImGuiCol_WindowBg].w = 0.88f;
+    float scale = 1.0f;
+    glfwGetWindowContentScale(handle, &scale, nullptr);
+    style.ScaleAllSizes(scale);
+    ImGui::GetIO().FontGlobalScale = scale;
+}
+
+}  // namespace
+
+Overlay::Overlay(Window& window) : input_(window) {
+    IMGUI_CHECKVERSION();
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;  // no file beside the user's work
+    choose_style(window.native_handle());
+    if (!ImGui_ImplGlfw_InitForOpenGL(window.native_handle(), true) ||
+        !ImGui_ImplOpenGL3_Init("#version 450 core")) {
+        throw Error("Dear ImGui {} cannot draw with this OpenGL", ImGui::GetVersion());
+    }
+}
+
+Overlay::~Overlay() {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+}
+
+ViewerInput Overlay::begin() {
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+    ViewerInput input;
+    if (!ImGui::GetIO().WantCaptureKeyboard) read_keys(input);
+    input_.forget();
+    read_mouse(input);
+    return input;
+}
+
+void Overlay::end() {
+    ImGui::Render();
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+void Overlay::read_keys(ViewerInput& input) const {
+    const auto axis = [&](int positive, int negative) {
+        return double(input_.is_held(positive)) - double(input_.is_held(negative));
+    };
+    input.move = {axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q), axis(GLFW_KEY_W, GLFW_KEY_S)};
+    input.fast = input_.is_held(GLFW_KEY_LEFT_SHIFT) || input_.is_held(GLFW_KEY_RIGHT_SHIFT);
+    input.close = input_.was_pressed(GLFW_KEY_ESCAPE);
+    input.toggle_panel = input_.was_pressed(GLFW_KEY_TAB) || input_.was_pressed(GLFW_KEY_F1);
+    input.reload_shaders = input_.was_pressed(GLFW_KEY_F5);
+    input.screenshot = input_.was_pressed(GLFW_KEY_F12);
+    input.toggle_animation = input_.was_pressed(GLFW_KEY_SPACE);
+}
+
+void Overlay::read_mouse(ViewerInput& input) {
+    const ImGuiIO& io = ImGui::GetIO();
+    // A drag that began outside the panel keeps the mouse, wherever it goes.
+    const bool dragging = ImGui::IsMouseDown(ImGuiMouseButton_Right) && !io.WantCaptureMouse;
+    // The movement that led to the first frame of a drag happened before the button went down.
+    if (dragging && looking_) input.look_px = {io.MouseDelta.x, io.MouseDelta.y};
+    if (!io.WantCaptureMouse) input.wheel_steps = io.MouseWheel;
+    looking_ = dragging;
+    input_.capture_mouse(dragging);
+}
+
+}  // namespace tarn

@@ -1,0 +1,220 @@
+#include "ui/panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <array>
+
+#include "ui/setting_widgets.h"
+
+namespace tarn {
+namespace {
+
+constexpr float WIDTH_EM = 25.0f;
+const ImVec4 ERROR_COLOUR(1.0f, 0.35f, 0.3f, 1.0f);
+const ImVec4 QUIET_COLOUR(0.65f, 0.65f, 0.65f, 1.0f);
+
+bool begin_section(const char* name, bool open = true) {
+    return ImGui::CollapsingHeader(name, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+}
+
+void show_text(const std::string& text) {
+    ImGui::TextUnformatted(text.c_str());
+}
+
+void show_wrapped(const std::string& text, const ImVec4& colour) {
+    ImGui::PushStyleColor(ImGuiCol_Text, colour);
+    ImGui::PushTextWrapPos(0.0f);
+    show_text(text);
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+}
+
+// Two columns: a name and what it is.
+template <class Rows, class ShowValue>
+void draw_table(const char* id, const Rows& rows, const ShowValue& show_value) {
+    if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingStretchProp)) return;
+    for (const auto& [name, value] : rows) {
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        show_text(name);
+        ImGui::TableNextColumn();
+        show_value(value);
+    }
+    ImGui::EndTable();
+}
+
+void draw_headline(const ViewerFacts& facts) {
+    show_text(fmt::format("{}  {}x{}  {:.1f} ms  {:.1f} frames/s", facts.scene_name, facts.width_px,
+                          facts.height_px, facts.timings.frame_ms, facts.frames_per_s));
+    if (!facts.message.empty())
+        show_wrapped(facts.message, facts.message_is_error ? ERROR_COLOUR : QUIET_COLOUR);
+}
+
+void draw_view_combo(DisplayView& view) {
+    const auto views = display_views();
+    if (ImGui::BeginCombo("view", views[std::size_t(view)].name)) {
+        for (std::size_t i = 0; i < views.size(); ++i) {
+            if (ImGui::Selectable(views[i].name, i == std::size_t(view))) view = DisplayView(i);
+            add_tooltip(views[i].sentence);
+        }
+        ImGui::EndCombo();
+    } else {
+        add_tooltip(views[std::size_t(view)].sentence);
+    }
+}
+
+void draw_resolution_combo(int& percent) {
+    constexpr std::array<int, 6> STEPS = {25, 33, 50, 67, 75, 100};
+    if (ImGui::BeginCombo("resolution", fmt::format("{} %", percent).c_str())) {
+        for (const int step : STEPS) {
+            if (ImGui::Selectable(fmt::format("{} %", step).c_str(), step == percent)) percent = step;
+        }
+        ImGui::EndCombo();
+    }
+    add_tooltip("Width and height of the rendered picture, relative to the window");
+}
+
+void draw_picture_section(ViewerState& state) {
+    if (!begin_section("Picture")) return;
+    draw_view_combo(state.view);
+    ImGui::Checkbox("auto", &state.auto_exposure);
+    add_tooltip("Exposure that maps the log-average luminance to middle grey");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(ImGui::CalcItemWidth() - ImGui::GetCursorPosX() +
+                            ImGui::GetStyle().WindowPadding.x);
+    if (ImGui::SliderFloat("exposure", &state.exposure_ev, -20.0f, 20.0f, "%.2f EV"))
+        state.auto_exposure = false;
+    add_tooltip("Stops: radiance is multiplied by 2^EV before tone mapping");
+    draw_resolution_combo(state.resolution_percent);
+    ImGui::InputScalar("seed", ImGuiDataType_U32, &state.seed);
+    add_tooltip("Seed of all random numbers");
+}
+
+void draw_camera_section(ViewerState& state, const ViewerFacts& facts, PanelActions& actions) {
+    if (!begin_section("Camera")) return;
+    const std::string current = facts.followed_camera ? facts.camera_names[*facts.followed_camera] : "flying";
+    if (ImGui::BeginCombo("camera", current.c_str())) {
+        for (std::size_t i = 0; i < facts.camera_names.size(); ++i) {
+            ImGui::PushID(int(i));
+            if (ImGui::Selectable(facts.camera_names[i].c_str(), facts.followed_camera == i))
+                actions.camera = i;
+            ImGui::PopID();
+        }
+        ImGui::EndCombo();
+    }
+    add_tooltip("Go to a camera of the scene, and with it where it is animated");
+    const glm::dvec3& p = facts.camera_position_ws;
+    show_text(fmt::format("at {:.3f}, {:.3f}, {:.3f} m", p.x, p.y, p.z));
+    ImGui::SliderFloat("speed", &state.fly_speed_m_s, 1e-3f, 1e3f, "%.3g m/s", ImGuiSliderFlags_Logarithmic);
+    add_tooltip(
+        "W A S D Q E fly, Shift is faster, the wheel changes the speed; drag with the right button to look");
+}
+
+void draw_animation_section(ViewerState& state, const ViewerFacts& facts) {
+    if (facts.animation_duration_s <= 0.0 || !begin_section("Animation")) return;
+    if (ImGui::Button(state.playing ? "Pause" : "Play")) state.playing = !state.playing;
+    add_tooltip("Space");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(ImGui::CalcItemWidth() - ImGui::GetCursorPosX() +
+                            ImGui::GetStyle().WindowPadding.x);
+    const double start_s = 0.0;
+    ImGui::SliderScalar("time", ImGuiDataType_Double, &state.time_s, &start_s, &facts.animation_duration_s,
+                        "%.2f s");
+    ImGui::SliderFloat("rate", &state.animation_speed, 0.0f, 4.0f, "%.2f x");
+    add_tooltip("How fast the animation runs, relative to real time");
+}
+
+// One row a pass: name, a bar relative to the frame, milliseconds.
+void draw_pass_rows(const FrameTimings& timings) {
+    if (!ImGui::BeginTable("passes", 2, ImGuiTableFlags_SizingStretchSame)) return;
+    const float height = ImGui::GetFontSize();
+    for (const PassTiming& pass : timings.passes) {
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        show_text(pass.name);
+        ImGui::TableNextColumn();
+        const double share = timings.frame_ms > 0.0 ? pass.ms / timings.frame_ms : 0.0;
+        ImGui::ProgressBar(float(std::clamp(share, 0.0, 1.0)), ImVec2(-1.0f, height),
+                           fmt::format("{:.2f} ms", pass.ms).c_str());
+    }
+    ImGui::EndTable();
+}
+
+void draw_cost_section(const ViewerFacts& facts) {
+    if (!begin_section("Cost (median of the last frames)")) return;
+    draw_pass_rows(facts.timings);
+    show_text(
+        fmt::format("{} shadow rays, {:.2f} M rays/s", facts.shadow_rays, facts.shadow_rays_per_s * 1e-6));
+    show_text(fmt::format("{} of {} triangles drawn", facts.triangles_drawn, facts.triangles_total));
+}
+
+void draw_counter_section(const ViewerFacts& facts) {
+    if (!begin_section("Counters")) return;
+    draw_table("counters", facts.counters, [](std::uint64_t count) {
+        if (count == 0) {
+            show_text("0");
+        } else {
+            ImGui::TextColored(ERROR_COLOUR, "%llu", static_cast<unsigned long long>(count));
+        }
+    });
+}
+
+void draw_plan_section(const ViewerFacts& facts) {
+    if (facts.plan == nullptr || !begin_section("Plan", false)) return;
+    for (const PlanEntry& entry : facts.plan->entries) {
+        show_text(entry.define);
+        ImGui::Indent();
+        show_wrapped(entry.reason, QUIET_COLOUR);
+        ImGui::Unindent();
+    }
+}
+
+void draw_scene_section(const ViewerFacts& facts) {
+    if (!begin_section("Scene", false)) return;
+    draw_table("scene", facts.scene_facts,
+               [](const std::string& value) { show_wrapped(value, QUIET_COLOUR); });
+}
+
+void draw_tools_section(ViewerState& state, PanelActions& actions) {
+    if (!begin_section("Tools")) return;
+    actions.screenshot = ImGui::Button("Screenshot");
+    add_tooltip("F12: writes the picture, without the panel, as PNG");
+    ImGui::SameLine();
+    actions.reload_shaders = ImGui::Button("Reload shaders");
+    add_tooltip("F5: recompiles the shaders that changed; one that fails keeps its old version");
+    ImGui::InputTextWithHint("file", "a new name under out/", &state.screenshot_file);
+    show_wrapped("Tab hides the panel, Escape ends", QUIET_COLOUR);
+}
+
+}  // namespace
+
+PanelActions draw_panel(ViewerState& state, const ViewerFacts& facts) {
+    PanelActions actions;
+    if (!state.panel_visible) return actions;
+    const ImVec2 window = ImGui::GetIO().DisplaySize;
+    const float margin = 0.5f * ImGui::GetFontSize();
+    const float width = std::min(WIDTH_EM * ImGui::GetFontSize(), window.x - 2.0f * margin);
+    ImGui::SetNextWindowPos(ImVec2(margin, margin));
+    ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0.0f),
+                                        ImVec2(width, std::max(1.0f, window.y - 2.0f * margin)));
+    ImGui::Begin("Tarn", nullptr, ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize);
+    ImGui::PushItemWidth(-9.0f * ImGui::GetFontSize());
+    draw_headline(facts);
+    if (begin_section("Settings")) draw_settings(state.settings);
+    draw_picture_section(state);
+    draw_camera_section(state, facts, actions);
+    draw_animation_section(state, facts);
+    draw_cost_section(facts);
+    draw_counter_section(facts);
+    draw_plan_section(facts);
+    draw_scene_section(facts);
+    draw_tools_section(state, actions);
+    ImGui::PopItemWidth();
+    ImGui::End();
+    return actions;
+}
+
+}  // namespace tarn
