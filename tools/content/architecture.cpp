@@ -285,7 +285,8 @@ void add_stairs(GltfWriter& writer, const CourtMaterials& m) {
     Shape rails;
     append(rails, make_parapet(), move_by({HALF_BAY, UPPER_FLOOR_M, half - 0.02f}));
     append(rails, make_parapet(),
-           move_by({BAY_M - 0.12f, UPPER_FLOOR_M, 0.0f}) * turn_y(0.5 * PI) * stretch({WIDTH / BAY_M, 1, 1}));
+           move_by({BAY_M - 0.12f, UPPER_FLOOR_M - 0.01f, 0.0f}) * turn_y(0.5 * PI) *
+               stretch({WIDTH / BAY_M, 1, 1}));
     const Side side = court_sides()[STAIR_SIDE];
     Placement place = side.bay(STAIR_BAY);
     place.translation += glm::vec3(turn_y(side.turn_rad) * glm::vec4(-HALF_BAY, 0.008f, 0.39f + half, 0));

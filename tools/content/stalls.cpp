@@ -80,11 +80,12 @@ Shape make_cloth_roof() {
 void append_heap(Shape& wood, Shape& fruit, const glm::vec3& place, const Random& random,
                  std::uint64_t index) {
     const glm::mat4 moved = move_by(place) * turn_x(0.2);
-    append(wood, make_box({-0.26f, 0.0f, -0.2f}, {0.26f, 0.03f, 0.2f}), moved);
+    append(wood, make_box({-0.25f, 0.006f, -0.19f}, {0.25f, 0.03f, 0.19f}), moved);
     for (const float side : {-1.0f, 1.0f}) {
-        append(wood, make_box({side * 0.25f - 0.012f, 0.0f, -0.2f}, {side * 0.25f + 0.012f, 0.13f, 0.2f}),
+        append(wood, make_box({side * 0.25f - 0.012f, 0.0f, -0.196f}, {side * 0.25f + 0.012f, 0.13f, 0.196f}),
                moved);
-        append(wood, make_box({-0.24f, 0.0f, side * 0.19f - 0.012f}, {0.24f, 0.125f, side * 0.19f + 0.012f}),
+        append(wood,
+               make_box({-0.24f, -0.006f, side * 0.19f - 0.012f}, {0.24f, 0.125f, side * 0.19f + 0.012f}),
                moved);
     }
     const Shape ball = make_sphere(0.052f, 6, 4);
