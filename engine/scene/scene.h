@@ -99,7 +99,7 @@ struct Texture {
 };
 
 // A texture as one material slot uses it (KHR_texture_transform included): uv' = offset + rotate(rotation) *
-// scale * uv.
+// scale * uv, counter-clockwise as seen with v pointing down: rotate(uv) = (c u + s v, c v - s u).
 struct TextureSlot {
     TextureIndex texture;  // unset: no texture, value 1 (normal map: +Z)
     int uv_set = 0;        // 0 or 1
