@@ -1,0 +1,169 @@
+// tarn reference: the path-traced truth of a scene, with the variance of every pixel.
+#include "reference/reference.h"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <csignal>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "commands.h"
+#include "core/error.h"
+#include "image_io/file.h"
+#include "image_io/image_io.h"
+#include "scene_options.h"
+
+namespace tarn {
+namespace {
+
+struct ReferenceOptions {
+    SceneOptions scene;
+    ReferenceSettings settings;
+    std::filesystem::path out;
+    std::filesystem::path json;
+    std::string pixel = "centre";
+};
+
+std::atomic<bool> cancel_requested{false};
+
+// While it lives, the first Ctrl-C asks for an early end and the second one kills.
+class CancelOnInterrupt {
+  public:
+    CancelOnInterrupt() {
+        struct sigaction action {};
+        action.sa_handler = [](int) { cancel_requested = true; };
+        action.sa_flags = int(SA_RESETHAND);
+        sigaction(SIGINT, &action, &previous_);
+    }
+    ~CancelOnInterrupt() { sigaction(SIGINT, &previous_, nullptr); }
+    CancelOnInterrupt(const CancelOnInterrupt&) = delete;
+    CancelOnInterrupt& operator=(const CancelOnInterrupt&) = delete;
+
+  private:
+    struct sigaction previous_ {};
+};
+
+std::vector<float> take_channel(const Image& image, int channel) {
+    std::vector<float> values(image.pixel_count());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        values[i] = image.values[i * std::size_t(image.channels) + std::size_t(channel)];
+    }
+    return values;
+}
+
+void write_picture(const std::filesystem::path& path, const ReferenceResult& result) {
+    const Image &mean = result.radiance, &variance = result.variance;
+    write_exr(path, mean.width, mean.height,
+              {{"R", take_channel(mean, 0)},
+               {"G", take_channel(mean, 1)},
+               {"B", take_channel(mean, 2)},
+               {"variance.R", take_channel(variance, 0)},
+               {"variance.G", take_channel(variance, 1)},
+               {"variance.B", take_channel(variance, 2)}});
+}
+
+void write_json(const ReferenceOptions& options, const ReferenceResult& result) {
+    const ReferenceSettings& s = options.settings;
+    nlohmann::ordered_json json;
+    json["spp"] = result.spp;
+    json["relative_error"] = result.relative_error;
+    json["non_finite"] = result.non_finite;
+    json["rays"] = result.rays;
+    json["seconds"] = result.seconds;
+    json["cancelled"] = result.cancelled;
+    json["settings"] = {{"scene", options.scene.scene.string()},
+                        {"width", s.width},
+                        {"height", s.height},
+                        {"camera", options.scene.camera},
+                        {"time_s", options.scene.time_s},
+                        {"seed", s.seed},
+                        {"bounces", s.direct_only ? 1 : s.bounces},
+                        {"direct_only", s.direct_only},
+                        {"pixel", options.pixel},
+                        {"threads", options.scene.threads}};
+    write_whole(options.json, [&](const std::string& temporary) {
+        std::ofstream file(temporary);
+        file << json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
+        if (!file.flush()) throw Error("{}: cannot be written", options.json.string());
+    });
+}
+
+// Found before the work is done, not after it.
+void check_output(const std::filesystem::path& path) {
+    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    if (!std::filesystem::is_directory(folder)) {
+        throw Error("{}: the folder {} does not exist", path.string(), folder.string());
+    }
+}
+
+void run_reference_command(ReferenceOptions& options) {
+    check_output(options.out);
+    if (!options.json.empty()) check_output(options.json);
+    const WorkerLimit limit(options.scene.threads);
+    const LoadedScene loaded = load_scene(options.scene);
+    const auto tracer = create_embree_tracer(loaded.world);
+    ReferenceSettings& settings = options.settings;
+    settings.width = options.scene.width;
+    settings.height = options.scene.height;
+    settings.seed = options.scene.seed;
+    settings.camera = choose_camera(options.scene, loaded.scene, loaded.world);
+    settings.box_pixel_filter = options.pixel == "box";
+    settings.cancel = &cancel_requested;
+    const CancelOnInterrupt interrupt;
+    const ReferenceResult result = render_reference(loaded.world, *tracer, settings);
+    write_picture(options.out, result);
+    if (!options.json.empty()) write_json(options, result);
+    fmt::print(
+        "{}: {} samples a pixel{}, relative error {:.4f}, {:.1f} Mrays in {:.1f} s, {} samples not finite\n",
+        options.out.string(), result.spp, result.cancelled ? " (interrupted)" : "", result.relative_error,
+        1e-6 * double(result.rays), result.seconds, result.non_finite);
+}
+
+}  // namespace
+
+void add_reference_command(CLI::App& app) {
+    auto options = std::make_shared<ReferenceOptions>();
+    CLI::App* command = app.add_subcommand(
+        "reference", "Path-trace the truth: radiance and per-pixel variance of the mean, as OpenEXR");
+    add_scene_options(*command, options->scene);
+    command->add_option("--out", options->out, "EXR file with channels R G B and variance.R .G .B")
+        ->required()
+        ->check([](const std::string& path) {
+            return std::filesystem::path(path).extension() == ".exr" ? std::string()
+                                                                     : "'" + path + "' does not end in .exr";
+        })
+        ->type_name("F.exr");
+    CLI::App* effort = command->add_option_group("effort");
+    CLI::Option* spp = effort->add_option("--spp", options->settings.spp, "Samples a pixel")
+                           ->check(CLI::Range(std::uint64_t(1), MAX_SPP));
+    effort
+        ->add_option_function<double>(
+            "--relative-error",
+            [options](double error) {
+                options->settings.relative_error = error;
+                options->settings.spp = MAX_SPP;
+            },
+            "Go on until the relative standard error, as root mean square over the pixels, is below this")
+        ->check(CLI::PositiveNumber)
+        ->excludes(spp);
+    effort->require_option(1);
+    command
+        ->add_option("--bounces", options->settings.bounces, "Times that light is scattered; 1: direct light")
+        ->check(CLI::Range(0, MAX_BOUNCES))
+        ->capture_default_str();
+    command->add_flag("--direct-only", options->settings.direct_only,
+                      "Emission and direct light alone: what the renderer's direct passes compute");
+    command
+        ->add_option("--pixel", options->pixel,
+                     "Where in a pixel: its centre as the rasterizer, or all of it (box)")
+        ->check(CLI::IsMember({"centre", "box"}))
+        ->capture_default_str();
+    command->add_option("--json", options->json, "Write settings, counts and times to this file")
+        ->type_name("F");
+    command->callback([options] { run_reference_command(*options); });
+}
+
+}  // namespace tarn

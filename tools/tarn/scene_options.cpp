@@ -1,0 +1,149 @@
+#include "scene_options.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
+#include "core/error.h"
+#include "image_io/image_io.h"
+#include "scene/gltf_import.h"
+
+namespace tarn {
+namespace {
+
+constexpr int MAX_SIZE_PX = 16384;
+
+template <class Number>
+std::optional<Number> parse_number(const std::string& text) {
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> parts;
+    std::size_t begin = 0;
+    for (std::size_t end; (end = text.find(separator, begin)) != std::string::npos; begin = end + 1) {
+        parts.push_back(text.substr(begin, end - begin));
+    }
+    parts.push_back(text.substr(begin));
+    return parts;
+}
+
+void parse_size(const std::string& text, SceneOptions& options) {
+    const auto parts = split(text, 'x');
+    const auto width = parse_number<int>(parts.front()), height = parse_number<int>(parts.back());
+    const auto fits = [](const std::optional<int>& n) { return n && *n >= 1 && *n <= MAX_SIZE_PX; };
+    if (parts.size() != 2 || !fits(width) || !fits(height)) {
+        throw CLI::ValidationError(
+            "--size", fmt::format("'{}' is not WIDTHxHEIGHT with numbers from 1 to {}", text, MAX_SIZE_PX));
+    }
+    options.width = *width;
+    options.height = *height;
+}
+
+// Position, target and field of view, where `text` is seven numbers.
+std::optional<std::vector<double>> parse_view(const std::string& text) {
+    const auto parts = split(text, ',');
+    if (parts.size() != 7) return std::nullopt;
+    std::vector<double> numbers;
+    for (const std::string& part : parts) {
+        const auto number = parse_number<double>(part);
+        if (!number || !std::isfinite(*number)) return std::nullopt;
+        numbers.push_back(*number);
+    }
+    return numbers;
+}
+
+std::string camera_name(const Scene& scene, const Camera& camera) {
+    if (!camera.name.empty() || !camera.node.is_set()) return camera.name;
+    return at(scene.nodes, camera.node).name;
+}
+
+std::string list_cameras(const Scene& scene) {
+    if (scene.cameras.empty()) return "the scene has none";
+    std::string list;
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+        list += fmt::format("{}{} '{}'", i == 0 ? "the scene has " : ", ", i,
+                            camera_name(scene, scene.cameras[i]));
+    }
+    return list;
+}
+
+CameraIndex find_camera(const Scene& scene, const std::string& text) {
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+        if (camera_name(scene, scene.cameras[i]) == text) return CameraIndex(i);
+    }
+    const auto index = parse_number<std::uint32_t>(text);
+    return index && *index < scene.cameras.size() ? CameraIndex(*index) : CameraIndex();
+}
+
+}  // namespace
+
+void add_scene_options(CLI::App& command, SceneOptions& options) {
+    command
+        .add_option("SCENE", options.scene,
+                    "A .gltf or .glb file, or the name of an own scene (lantern_court)")
+        ->required();
+    command
+        .add_option_function<std::string>(
+            "--size", [&options](const std::string& text) { parse_size(text, options); },
+            "Size of the picture, px")
+        ->type_name("WxH")
+        ->default_str("640x360");
+    command
+        .add_option("--camera", options.camera,
+                    "Which camera (default: the scene's first, or a view of the whole)")
+        ->type_name("NAME|INDEX|x,y,z,tx,ty,tz,fov_deg");
+    command.add_option("--environment", options.environment, "Sky: equirectangular radiance")
+        ->type_name("F.hdr|F.exr");
+    command.add_option("--seed", options.seed, "Seed of all random numbers")->capture_default_str();
+    command.add_option("--threads", options.threads, "Worker threads (0: one per core)")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
+    command.add_option("--time", options.time_s, "Moment of the animation, s (default: the rest pose)");
+    command.add_option("--scene", options.scene_index, "Index of the scene (default: the file's own choice)")
+        ->check(CLI::NonNegativeNumber);
+}
+
+std::filesystem::path resolve_scene_path(const std::filesystem::path& scene) {
+    if (std::filesystem::exists(scene) || scene.has_parent_path() || scene.has_extension()) return scene;
+    const char* folder = std::getenv("TARN_CONTENT_DIR");
+    const std::filesystem::path own =
+        std::filesystem::path(folder != nullptr ? folder : TARN_CONTENT_DIR) / (scene.string() + ".glb");
+    return std::filesystem::exists(own) ? own : scene;
+}
+
+LoadedScene load_scene(const SceneOptions& options) {
+    LoadedScene loaded;
+    loaded.scene = load_gltf(resolve_scene_path(options.scene), GltfOptions{options.scene_index});
+    WorldOptions world_options;
+    world_options.time_s = options.time_s;
+    if (options.environment) world_options.environment = read_radiance(*options.environment);
+    loaded.world = build_world(loaded.scene, world_options);
+    return loaded;
+}
+
+CameraRecord choose_camera(const SceneOptions& options, const Scene& scene, const World& world) {
+    const double aspect = double(options.width) / double(options.height);
+    if (options.camera.empty()) {
+        const auto first = scene_camera(scene, world, CameraIndex(0), aspect, options.time_s);
+        return first ? *first : default_camera(world, aspect);
+    }
+    const CameraIndex index = find_camera(scene, options.camera);
+    if (const auto camera = scene_camera(scene, world, index, aspect, options.time_s)) return *camera;
+    if (const auto v = parse_view(options.camera)) {
+        const double fov_deg = (*v)[6];
+        if (!(fov_deg > 0.0 && fov_deg < 180.0)) {
+            throw Error("camera '{}': the field of view is {} degrees, it must lie between 0 and 180",
+                        options.camera, fov_deg);
+        }
+        return look_at(world, {(*v)[0], (*v)[1], (*v)[2]}, {(*v)[3], (*v)[4], (*v)[5]}, fov_deg, aspect);
+    }
+    throw Error("camera '{}' is neither a name, an index nor x,y,z,tx,ty,tz,fov_deg; {}", options.camera,
+                list_cameras(scene));
+}
+
+}  // namespace tarn

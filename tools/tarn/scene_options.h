@@ -1,0 +1,47 @@
+// What render, reference and flythrough have in common: which scene, from where, how large.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "scene/scene.h"
+#include "world/world.h"
+
+namespace tarn {
+
+struct SceneOptions {
+    std::filesystem::path scene;
+    int width = 640;
+    int height = 360;
+    std::string camera;  // empty: the scene's first, or a view of the whole
+    std::optional<std::filesystem::path> environment;
+    std::uint32_t seed = 0;
+    int threads = 0;       // 0: one per core
+    double time_s = -1.0;  // < 0: the rest pose
+    int scene_index = -1;  // -1: the file's own choice
+};
+
+// Adds SCENE and the options above to a command. `options` must outlive the parsing.
+void add_scene_options(CLI::App& command, SceneOptions& options);
+
+// The file that SCENE means: a path, or the bare name of one of the project's own scenes, which lie in the
+// folder TARN_CONTENT_DIR (environment variable, else where the build put them).
+std::filesystem::path resolve_scene_path(const std::filesystem::path& scene);
+
+struct LoadedScene {
+    Scene scene;
+    World world;
+};
+
+// Loads the scene and flattens it, with the environment map if there is one. Throws Error naming what is
+// wrong.
+LoadedScene load_scene(const SceneOptions& options);
+
+// The camera that `options.camera` means: a name, an index, or x,y,z,tx,ty,tz,fov_deg. Throws Error listing
+// the scene's cameras where there is no such one.
+CameraRecord choose_camera(const SceneOptions& options, const Scene& scene, const World& world);
+
+}  // namespace tarn
