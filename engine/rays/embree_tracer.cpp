@@ -207,4 +207,6 @@ std::unique_ptr<RayTracer> create_embree_tracer(const World& world) {
     return std::make_unique<EmbreeTracer>(world);
 }
 
+std::string describe_ray_library() { return RTC_VERSION_STRING; }
+
 }  // namespace tarn

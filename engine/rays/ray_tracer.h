@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "shared/interface/records.h"
 #include "world/world.h"
@@ -74,6 +75,9 @@ class WorkerLimit {
 
 // Embree 3, two-level: one BVH per mesh, instances on top. Throws Error when Embree fails.
 std::unique_ptr<RayTracer> create_embree_tracer(const World& world);
+
+// The ray tracing library and its version, such as "3.13.5".
+std::string describe_ray_library();
 
 // Tests every triangle for every ray. The oracle for tests.
 std::unique_ptr<RayTracer> create_brute_force_tracer(const World& world);

@@ -9,6 +9,11 @@
 namespace tarn {
 namespace {
 
+std::vector<std::string> join(std::vector<std::string> first, std::vector<std::string> second) {
+    first.insert(first.end(), second.begin(), second.end());
+    return first;
+}
+
 double scene_diameter(const World& world) {
     return world.bounds.empty() ? 1.0 : std::max(1e-6, glm::length(world.bounds.extent()));
 }
@@ -24,16 +29,18 @@ float depth_parameter(const World& world, const CameraRecord& camera) {
 
 }  // namespace
 
-Renderer::Renderer(const World& world, const RayTracer& tracer, int width_px, int height_px)
+Renderer::Renderer(const World& world, const RayTracer& tracer, int width_px, int height_px,
+                   std::vector<std::string> extra_defines)
     : world_(world),
       tracer_(tracer),
       width_px_(width_px),
       height_px_(height_px),
       plan_(make_plan(world)),
+      defines_(join(plan_.defines(), std::move(extra_defines))),
       gpu_scene_(world),
       frame_block_("frame/block", sizeof(FrameBlock), BufferUse::DYNAMIC),
       counters_("frame/counters", COUNTER_COUNT * sizeof(std::uint32_t), BufferUse::DEVICE),
-      gbuffer_(programs_, gpu_scene_, width_px, height_px, plan_.defines()),
+      gbuffer_(programs_, gpu_scene_, width_px, height_px, defines_),
       direct_candidates_(programs_, width_px, height_px),
       visibility_(std::size_t(width_px) * std::size_t(height_px)),
       direct_shade_(programs_, width_px, height_px) {
@@ -57,7 +64,6 @@ void Renderer::upload_frame_block(const FrameInput& input) {
 }
 
 FrameOutput Renderer::render(const FrameInput& input) {
-    const std::vector<std::string> defines = plan_.defines();
     const CoverageKey shadow_key{input.frame, input.seed, RAY_SHADOW};
 
     frame_.begin();
@@ -66,9 +72,9 @@ FrameOutput Renderer::render(const FrameInput& input) {
 
     const GBuffer gbuffer = gbuffer_.record(frame_, world_, input.camera);
     const Candidates candidates =
-        direct_candidates_.record(frame_, gbuffer, input.settings.direct, counters_, defines);
+        direct_candidates_.record(frame_, gbuffer, input.settings.direct, counters_, defines_);
     const Visibility visible = visibility_.record(frame_, tracer_, candidates.rays, shadow_key);
-    const Texture2D& radiance = direct_shade_.record(frame_, gbuffer, candidates, visible, counters_, defines);
+    const Texture2D& radiance = direct_shade_.record(frame_, gbuffer, candidates, visible, counters_, defines_);
 
     rejected_rays_ += visibility_.result().rejected;
     return {radiance, gbuffer, frame_.end(), visibility_.result(), gbuffer_.statistics()};

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "core/image.h"
 #include "frame/frame_recorder.h"
@@ -38,7 +39,9 @@ struct FrameOutput {
 class Renderer {
   public:
     // Throws Error when the world does not fit the driver's limits. `world` and `tracer` must outlive the renderer.
-    Renderer(const World& world, const RayTracer& tracer, int width_px, int height_px);
+    // `extra_defines` reach every shader: tests plant mistakes with them (TARN_PLANT_*).
+    Renderer(const World& world, const RayTracer& tracer, int width_px, int height_px,
+             std::vector<std::string> extra_defines = {});
 
     // Uploads what moved; call after update_world and the tracer's update.
     void update();
@@ -66,6 +69,7 @@ class Renderer {
     int width_px_;
     int height_px_;
     FramePlan plan_;
+    std::vector<std::string> defines_;
     ProgramLibrary programs_;
     GpuScene gpu_scene_;
     FrameRecorder frame_;

@@ -9,6 +9,9 @@ namespace tarn {
 // disappoints; main turns that into one line and exit status 1.
 void add_info_command(CLI::App& app);
 void add_render_command(CLI::App& app);
+void add_reference_command(CLI::App& app);
 void add_compare_command(CLI::App& app);
+void add_flythrough_command(CLI::App& app);
+void add_view_command(CLI::App& app);
 
 }  // namespace tarn

@@ -14,7 +14,10 @@ int run(int argc, char** argv) {
     app.require_subcommand(1);
     add_info_command(app);
     add_render_command(app);
+    add_reference_command(app);
     add_compare_command(app);
+    add_flythrough_command(app);
+    add_view_command(app);
     try {
         app.parse(argc, argv);
         return 0;

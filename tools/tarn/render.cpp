@@ -1,45 +1,100 @@
-// tarn render: one picture (the last of N frames) through the GL renderer.
-#include <nlohmann/json.hpp>
-
-#include <fstream>
-
+// tarn render: a picture of a scene through the GL renderer.
 #include "commands.h"
 #include "core/display.h"
+#include "core/error.h"
+#include "core/log.h"
 #include "image_io/image_io.h"
-#include "platform/context.h"
-#include "renderer/renderer.h"
-#include "scene/gltf_import.h"
+#include "session.h"
+
 namespace tarn {
-void add_render_command(CLI::App& app) {
-    auto* c = app.add_subcommand("render");
-    static std::string scene_path, out; c->add_option("SCENE", scene_path)->required(); c->add_option("--out", out)->required();
-    static int frames = 1; c->add_option("--frames", frames);
-    static std::string mode = "ris"; c->add_option("--direct", mode);
-    c->callback([] {
-        Scene scene = load_gltf(scene_path);
-        World world = build_world(scene);
-        auto tracer = create_embree_tracer(world);
-        tracer->update(world);
-        auto context = create_context({});
-        const int w = 640, h = 360;
-        Renderer renderer(world, *tracer, w, h);
-        auto camera = scene_camera(scene, world, CameraIndex(0), double(w) / h, -1);
-        FrameInput input; input.camera = camera ? *camera : default_camera(world, double(w) / h);
-        setting_table()[0].parse(input.settings, mode);
-        Image sum(w, h, 3);
-        TimingLog log;
-        for (int i = 0; i < frames; ++i) {
-            input.frame = i;
-            auto o = renderer.render(input);
-            if (i) log.add(o.timings);
-            auto im = renderer.read_radiance(o.radiance);
-            for (size_t k = 0; k < sum.values.size(); ++k) sum.values[k] += im.values[k] / frames;
-            if (i + 1 == frames) fmt::print("draws {} tris {}/{} rays {}\n", o.raster.draws, o.raster.triangles_drawn, o.raster.triangles_total, o.shadow_rays.traced);
-        }
-        fmt::print("frame {:.2f} ms\n", log.frame_quantile_ms(0.5));
-        for (auto& p : log.pass_medians()) fmt::print("  {} {:.2f}\n", p.name, p.ms);
-        for (auto& [n, v] : renderer.read_counters()) fmt::print("  {} {}\n", n, v);
-        write_png(out, display_from_radiance(sum, auto_exposure_ev(sum)));
-    });
+namespace {
+
+struct RenderCommand {
+    RenderOptions options;
+    std::string out;
+    int frames = 1;
+    bool accumulate = false;
+};
+
+bool is_exr(const std::string& file) { return std::filesystem::path(file).extension() == ".exr"; }
+
+void check_output(const std::string& file) {
+    const std::string extension = std::filesystem::path(file).extension().string();
+    if (extension != ".exr" && extension != ".png") {
+        throw Error("{}: the picture's name must end in .exr or .png", file);
+    }
 }
+
+// Sum of frames in double, so that a thousand of them lose nothing.
+class Accumulator {
+  public:
+    void add(const Image& image) {
+        if (sums_.empty()) sums_.assign(image.values.size(), 0.0);
+        for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += image.values[i];
+        ++count_;
+    }
+    Image mean(int width, int height) const {
+        Image image(width, height, 3);
+        for (std::size_t i = 0; i < sums_.size(); ++i) image.values[i] = float(sums_[i] / count_);
+        return image;
+    }
+
+  private:
+    std::vector<double> sums_;
+    int count_ = 0;
+};
+
+void write_picture(const std::string& file, const Image& radiance, const std::optional<float>& exposure_ev) {
+    if (is_exr(file)) {
+        write_exr(file, radiance);
+    } else {
+        write_png(file, display_from_radiance(radiance, exposure_ev.value_or(auto_exposure_ev(radiance))));
+    }
+}
+
+void run_render(const RenderCommand& command) {
+    check_output(command.out);
+    RenderSession session(command.options);
+    Renderer& renderer = session.renderer();
+    FrameInput input;
+    input.camera = choose_camera(command.options.scene, session.loaded().scene, session.loaded().world);
+    input.seed = command.options.scene.seed;
+    input.settings = command.options.settings;
+
+    RunTotals totals;
+    Accumulator accumulator;
+    Image radiance;
+    Progress progress("rendering", std::uint64_t(command.frames));
+    for (int frame = 0; frame < command.frames; ++frame) {
+        input.frame = std::uint32_t(frame);
+        const FrameOutput output = renderer.render(input);
+        totals.add(output);
+        const bool last = frame + 1 == command.frames;
+        if (command.accumulate || last) radiance = renderer.read_radiance(output.radiance);
+        if (command.accumulate) accumulator.add(radiance);
+        progress.update(std::uint64_t(frame) + 1);
+    }
+    if (command.accumulate) radiance = accumulator.mean(renderer.width_px(), renderer.height_px());
+    write_picture(command.out, radiance, command.options.exposure_ev);
+    if (!command.options.json_file.empty()) {
+        write_text(command.options.json_file, make_report(command.options, session, totals).dump(2) + "\n");
+    }
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app) {
+    CLI::App* sub = app.add_subcommand("render", "Render a picture with the GL renderer");
+    auto command = std::make_shared<RenderCommand>();
+    add_render_options(*sub, command->options);
+    sub->add_option("--out", command->out,
+                    "The picture: .exr (linear radiance) or .png (exposed, tone-mapped)")
+        ->required();
+    sub->add_option("--frames", command->frames, "Render this many frames and keep the last")
+        ->check(CLI::Range(1, 1000000))
+        ->capture_default_str();
+    sub->add_flag("--accumulate", command->accumulate, "Keep the mean of all frames instead of the last");
+    sub->callback([command] { run_render(*command); });
+}
+
 }  // namespace tarn

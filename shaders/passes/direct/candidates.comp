@@ -76,6 +76,12 @@ void main() {
     LiveReservoir live = empty_live_reservoir();
     for (uint i = 0u; i < count; ++i) {
         LightCandidate c = draw_candidate(key, i);
+#ifdef TARN_PLANT_DROP_PDF
+        c.pdf = 1.0f;
+#endif
+#ifdef TARN_PLANT_SHIFT_LIGHT
+        if (c.drawn.light < get_light_count()) c.drawn.light = (c.drawn.light + 1u) % get_light_count();
+#endif
         IncidentLight incident = load_incident_light(c.drawn, p.position);
         float target = target_function(reflect_light(p, frame, view_local, incident));
         float weight = target == 0.0f ? 0.0f : target / (c.pdf * float(count));

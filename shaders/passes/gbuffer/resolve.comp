@@ -19,22 +19,22 @@ layout(binding = 2, rgba32f) writeonly uniform image2D out_diffuse;
 layout(binding = 3, rgba32f) writeonly uniform image2D out_specular;
 layout(binding = 4, rgba32f) writeonly uniform image2D out_emission;
 
-// Barycentrics where the ray meets the triangle's plane, kept within the triangle: the rasterizer's pixel may lie a
-// 256th of a pixel outside.
+// Barycentrics where the ray meets the triangle's plane (Moller and Trumbore, "Fast, Minimum Storage Ray-Triangle
+// Intersection", 1997), kept within the triangle: the rasterizer's pixel may lie a 256th of a pixel outside. Edges are
+// taken in object space, where small triangles far away still have their digits.
 vec2 intersect_triangle(PixelRay ray, uint instance_index, uint primitive) {
     InstanceRecord instance = load_instance(instance_index);
     uvec3 vertices = load_vertex_indices(instance, primitive);
-    vec3 p0 = transform_point(instance, load_position_os(vertices.x)) - ray.origin;
-    vec3 p1 = transform_point(instance, load_position_os(vertices.y)) - ray.origin;
-    vec3 p2 = transform_point(instance, load_position_os(vertices.z)) - ray.origin;
-    // Signed volumes between the ray and each edge.
-    float w0 = dot(ray.direction, cross(p1, p2));
-    float w1 = dot(ray.direction, cross(p2, p0));
-    float w2 = dot(ray.direction, cross(p0, p1));
-    float sum = w0 + w1 + w2;
-    if (sum == 0.0f) return vec2(1.0f / 3.0f);
-    float u = clamp(w1 / sum, 0.0f, 1.0f);
-    return vec2(u, clamp(w2 / sum, 0.0f, 1.0f - u));
+    vec3 p0 = load_position_os(vertices.x);
+    vec3 edge1 = transform_vector(instance, load_position_os(vertices.y) - p0);
+    vec3 edge2 = transform_vector(instance, load_position_os(vertices.z) - p0);
+    vec3 from_vertex = ray.origin - transform_point(instance, p0);
+    vec3 h = cross(ray.direction, edge2);
+    float determinant = dot(edge1, h);
+    if (determinant == 0.0f) return vec2(1.0f / 3.0f);
+    float u = clamp(dot(from_vertex, h) / determinant, 0.0f, 1.0f);
+    float v = dot(ray.direction, cross(from_vertex, edge1)) / determinant;
+    return vec2(u, clamp(v, 0.0f, 1.0f - u));
 }
 
 void store_sky(ivec2 pixel, vec3 direction) {

@@ -28,7 +28,11 @@ struct Surface {
 FN vec3 reflect_light(ShadingPoint p, Frame frame, vec3 view_local, IncidentLight incident) {
     if (dot(p.geometric_normal, incident.direction) <= 0.0f) return vec3(0.0f);
     vec3 light_local = to_local(frame, incident.direction);
+#ifdef TARN_PLANT_DROP_COSINE
+    return evaluate_brdf(p.material, view_local, light_local) * incident.value;
+#else
     return evaluate_brdf(p.material, view_local, light_local) * incident.value * max(light_local.z, 0.0f);
+#endif
 }
 
 // The resampling target (p-hat): luminance of BRDF * Le * G, without visibility.

@@ -54,10 +54,15 @@ FN float environment_pdf_solid_angle(vec3 direction) {
 
 // Radiance that the triangle light emits at `barycentrics`, emission map included.
 FN vec3 load_triangle_radiance(Light light, vec2 barycentrics) {
-    if (!SCENE_HAS_TEXTURED_LIGHTS || (light.flags & LIGHT_TEXTURED) == 0u) return light.radiance;
-    InstanceRecord i = load_instance(light.instance);
-    VertexExtras extras = interpolate_extras(load_vertex_indices(i, light.primitive), barycentrics);
-    return light.radiance * vec3(sample_slot(load_slot(i.material, SLOT_EMISSION), extras.uv0, extras.uv1));
+    vec3 radiance = light.radiance;
+    if (!SCENE_HAS_TEXTURED_LIGHTS) return radiance;
+    // A loop that runs at most once: a software GPU skips loops that no lane enters, but never the side of an `if`.
+    for (uint textured = light.flags & LIGHT_TEXTURED; textured != 0u; textured = 0u) {
+        InstanceRecord i = load_instance(light.instance);
+        VertexExtras extras = interpolate_extras(load_vertex_indices(i, light.primitive), barycentrics);
+        radiance = radiance * vec3(sample_slot(load_slot(i.material, SLOT_EMISSION), extras.uv0, extras.uv1));
+    }
+    return radiance;
 }
 
 // Bound on the rounding error of a sample's position on its light, metres; 0 for lights without a surface.

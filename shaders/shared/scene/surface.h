@@ -206,7 +206,7 @@ FN Surface evaluate_surface(uint instance, uint primitive, vec2 barycentrics, ve
     Surface s;
     s.point.position = transform_point(i, interpolate3(p0, p1, p2, barycentrics));
     s.point.position_error = position_error_bound(largest_absolute_term(i, p0, p1, p2));
-    vec3 geometric = normalize(transform_normal(i, cross(p1 - p0, p2 - p0)));
+    vec3 geometric = normalize_or_up(transform_normal(i, normalize_or_up(cross(p1 - p0, p2 - p0))));
     vec3 normal = transform_normal(
         i, interpolate3(row_xyz(fetch_vertex_row(vertices.x * VERTEX_ROWS + 1u)),
                         row_xyz(fetch_vertex_row(vertices.y * VERTEX_ROWS + 1u)),

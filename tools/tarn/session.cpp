@@ -1,0 +1,148 @@
+#include "session.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "core/error.h"
+#include "rays/ray_tracer.h"
+
+namespace tarn {
+namespace {
+
+std::string read_cpu_name() {
+    std::ifstream cpuinfo("/proc/cpuinfo");
+    for (std::string line; std::getline(cpuinfo, line);) {
+        if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+    }
+    return "unknown";
+}
+
+ContextOptions context_options(const RenderOptions& options) {
+    ContextOptions result;
+    result.kind = parse_context_kind(options.context);
+    result.gl_threads = options.scene.threads;
+    result.window_width_px = options.scene.width;
+    result.window_height_px = options.scene.height;
+    return result;
+}
+
+nlohmann::json describe_settings(const RenderOptions& options, const Renderer& renderer) {
+    nlohmann::json settings = {{"width", renderer.width_px()},
+                               {"height", renderer.height_px()},
+                               {"seed", options.scene.seed},
+                               {"context", options.context}};
+    for (const Setting& setting : setting_table()) {
+        if (setting.choices.empty()) {
+            settings[setting.name] = setting.get(options.settings);
+        } else {
+            settings[setting.name] = setting.format(options.settings);
+        }
+    }
+    return settings;
+}
+
+}  // namespace
+
+void add_render_options(CLI::App& command, RenderOptions& options) {
+    add_scene_options(command, options.scene);
+    for (const Setting& setting : setting_table()) {
+        std::string sentence = setting.sentence;
+        if (setting.choices.empty()) {
+            sentence += fmt::format(" [{} to {}]", setting.minimum, setting.maximum);
+        } else {
+            for (std::size_t i = 0; i < setting.choices.size(); ++i) {
+                sentence += (i == 0 ? " [" : ", ") + setting.choices[i];
+            }
+            sentence += "]";
+        }
+        const auto parse = [&options, &setting](const std::string& text) {
+            try {
+                setting.parse(options.settings, text);
+            } catch (const Error& error) {
+                throw CLI::ValidationError(error.what());
+            }
+        };
+        command.add_option_function<std::string>("--" + setting.name, parse, sentence)
+            ->default_str(setting.format(options.settings));
+    }
+    command.add_option("--context", options.context, "Where GL comes from [egl, glfw, osmesa]")
+        ->check(CLI::IsMember({"egl", "glfw", "osmesa"}))
+        ->capture_default_str();
+    command.add_option("--exposure", options.exposure_ev, "Exposure of PNG pictures, EV (default: automatic)");
+    command.add_option("--json", options.json_file, "Write timings, counters and settings to this file");
+}
+
+RenderSession::RenderSession(const RenderOptions& options)
+    : workers_(options.scene.threads), loaded_(load_scene(options.scene)), threads_(options.scene.threads) {
+    context_ = create_context(context_options(options));
+    tracer_ = create_embree_tracer(loaded_.world);
+    renderer_ = std::make_unique<Renderer>(loaded_.world, *tracer_, options.scene.width, options.scene.height);
+}
+
+void RenderSession::move_to(double time_s) {
+    update_world(loaded_.world, loaded_.scene, time_s);
+    tracer_->update(loaded_.world);
+    renderer_->update();
+}
+
+nlohmann::json RenderSession::describe_machine() const {
+    const DeviceInfo& device = context_->device_info();
+    return {{"cpu", read_cpu_name()},
+            {"cores", std::thread::hardware_concurrency()},
+            {"threads", threads_ > 0 ? threads_ : int(std::thread::hardware_concurrency())},
+            {"gl_renderer", device.renderer},
+            {"mesa", device.mesa_version},
+            {"embree", describe_ray_library()}};
+}
+
+void RunTotals::add(const FrameOutput& output) {
+    if (frames > 0) timings.add(output.timings);
+    shadow_rays += output.shadow_rays.traced;
+    ++frames;
+}
+
+nlohmann::json make_report(const RenderOptions& options, RenderSession& session, const RunTotals& totals) {
+    nlohmann::json passes = nlohmann::json::array();
+    for (const PassTiming& pass : totals.timings.pass_medians()) {
+        passes.push_back({{"name", pass.name}, {"ms_median", pass.ms}});
+    }
+    nlohmann::json plan = nlohmann::json::array();
+    for (const PlanEntry& entry : session.renderer().plan().entries) {
+        plan.push_back({{"define", entry.define}, {"reason", entry.reason}});
+    }
+    const double p50 = totals.timings.frame_quantile_ms(0.5), p95 = totals.timings.frame_quantile_ms(0.95);
+    return {{"frame_ms", {{"median", p50}, {"p95", p95}, {"frames", totals.timings.frame_count()}}},
+            {"passes", passes},
+            {"rays", {{"shadow", totals.shadow_rays}, {"closest", 0}}},
+            {"counters", session.renderer().read_counters()},
+            {"machine", session.describe_machine()},
+            {"settings", describe_settings(options, session.renderer())},
+            {"plan", plan}};
+}
+
+void create_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw Error("{}: the folder cannot be made: {}", folder.string(), error.message());
+}
+
+void write_text(const std::filesystem::path& file, const std::string& text) {
+    const std::filesystem::path partial = file.string() + ".partial";
+    {
+        std::ofstream stream(partial, std::ios::binary);
+        stream << text;
+        stream.flush();
+        if (!stream) {
+            std::error_code ignored;
+            std::filesystem::remove(partial, ignored);
+            throw Error("{}: cannot be written", file.string());
+        }
+    }
+    std::error_code error;
+    std::filesystem::rename(partial, file, error);
+    if (error) throw Error("{}: cannot be written: {}", file.string(), error.message());
+}
+
+}  // namespace tarn

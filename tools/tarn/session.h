@@ -1,0 +1,69 @@
+// A renderer with all that it stands on, set up from the command line's options.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "platform/context.h"
+#include "renderer/renderer.h"
+#include "scene_options.h"
+
+namespace tarn {
+
+struct RenderOptions {
+    SceneOptions scene;
+    RenderSettings settings;
+    std::string context = "egl";
+    std::optional<float> exposure_ev;  // none: automatic
+    std::string json_file;
+};
+
+// Adds --context, --exposure, --json and an option for each row of the settings table.
+void add_render_options(CLI::App& command, RenderOptions& options);
+
+class RenderSession {
+  public:
+    explicit RenderSession(const RenderOptions& options);
+
+    // Moves scene, rays and buffers to `time_s`.
+    void move_to(double time_s);
+
+    Renderer& renderer() { return *renderer_; }
+    const RayTracer& tracer() const { return *tracer_; }
+    const LoadedScene& loaded() const { return loaded_; }
+    const Context& context() const { return *context_; }
+
+    // What the machine is: CPU, threads, driver, Embree.
+    nlohmann::json describe_machine() const;
+
+  private:
+    WorkerLimit workers_;
+    LoadedScene loaded_;
+    std::unique_ptr<Context> context_;
+    std::unique_ptr<RayTracer> tracer_;
+    std::unique_ptr<Renderer> renderer_;
+    int threads_;
+};
+
+// Sums over the frames of a run, for the report.
+struct RunTotals {
+    TimingLog timings;
+    std::uint64_t shadow_rays = 0;
+    int frames = 0;
+
+    // Counts a frame; the first one's time holds the compilation of shaders and is left out.
+    void add(const FrameOutput& output);
+};
+
+// The JSON report of render and flythrough: frame_ms, passes, rays, counters, machine, settings, plan.
+nlohmann::json make_report(const RenderOptions& options, RenderSession& session, const RunTotals& totals);
+
+// Makes a folder and its parents. Throws Error that names it.
+void create_folder(const std::filesystem::path& folder);
+
+// Writes text whole or not at all. Throws Error that names the file.
+void write_text(const std::filesystem::path& file, const std::string& text);
+
+}  // namespace tarn
