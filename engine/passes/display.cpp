@@ -30,13 +30,17 @@ std::span<const DisplayViewInfo> display_views() {
     return VIEWS;
 }
 
-DisplayView parse_display_view(const std::string& name) {
+std::string list_display_views() {
     std::string names;
+    for (const DisplayViewInfo& view : VIEWS) names += (names.empty() ? "" : ", ") + std::string(view.name);
+    return names;
+}
+
+DisplayView parse_display_view(const std::string& name) {
     for (std::size_t i = 0; i < VIEWS.size(); ++i) {
         if (name == VIEWS[i].name) return DisplayView(i);
-        names += (i == 0 ? "" : ", ") + std::string(VIEWS[i].name);
     }
-    throw Error("view '{}' is none of: {}", name, names);
+    throw Error("view '{}' is none of: {}", name, list_display_views());
 }
 
 DisplayPass::DisplayPass(ProgramLibrary& programs, int width_px, int height_px)
@@ -64,6 +68,7 @@ const Texture2D& DisplayPass::record(FrameRecorder& frame, const Texture2D& radi
 
 void DisplayPass::present(const glm::ivec2& window_size_px) const {
     const bool same_size = window_size_px == glm::ivec2(picture_.width_px(), picture_.height_px());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
     // Row 0 of our pictures is the top one, row 0 of a window the bottom one.
     glBlitNamedFramebuffer(framebuffer_.id(), 0, 0, 0, picture_.width_px(), picture_.height_px(), 0,
                            window_size_px.y, window_size_px.x, 0, GL_COLOR_BUFFER_BIT,

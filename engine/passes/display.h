@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 
 #include <span>
+#include <string>
 
 #include "frame/frame_recorder.h"
 #include "gl/program_library.h"
@@ -31,6 +32,9 @@ struct DisplayViewInfo {
 
 // All views, in the order of the enumeration.
 std::span<const DisplayViewInfo> display_views();
+
+// Their names: "radiance, luminance, ...".
+std::string list_display_views();
 
 // The view of that name. Throws Error that lists the names.
 DisplayView parse_display_view(const std::string& name);
