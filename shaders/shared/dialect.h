@@ -10,14 +10,7 @@
 #define INOUT(T) inout T
 #define OUT(T) out T
 #define SHARED_BEGIN
-#define // v / |v| without underflow or overflow on the way; +Y for a vector without direction.
-FN vec3 normalize_or_up(vec3 v) {
-    float scale = max_component(abs(v));
-    if (!(scale > 0.0f) || !is_finite(scale)) return vec3(0.0f, 1.0f, 0.0f);
-    return normalize(v / scale);
-}
-
-SHARED_END
+#define SHARED_END
 #define CONSTANT const
 #define CONSTANT_MEMBER const
 
