@@ -19,9 +19,12 @@ layout(binding = 2, rgba32f) writeonly uniform image2D out_diffuse;
 layout(binding = 3, rgba32f) writeonly uniform image2D out_specular;
 layout(binding = 4, rgba32f) writeonly uniform image2D out_emission;
 
-// Barycentrics where the ray meets the triangle's plane (Moller and Trumbore, "Fast, Minimum Storage Ray-Triangle
-// Intersection", 1997), kept within the triangle: the rasterizer's pixel may lie a 256th of a pixel outside. Edges are
-// taken in object space, where small triangles far away still have their digits.
+// Barycentrics where the ray meets the triangle's plane, kept within the triangle: the rasterizer's pixel may lie a
+// 256th of a pixel outside.
+//
+// Moller and Trumbore ("Fast, Minimum Storage Ray-Triangle Intersection", 1997), then the same for what is left between
+// that point and the ray: on slivers the rounding of u and v would move the first answer by 1e-4 of the distance.
+// Edges are taken in object space, where small triangles far away still have their digits.
 vec2 intersect_triangle(PixelRay ray, uint instance_index, uint primitive) {
     InstanceRecord instance = load_instance(instance_index);
     uvec3 vertices = load_vertex_indices(instance, primitive);
@@ -30,10 +33,16 @@ vec2 intersect_triangle(PixelRay ray, uint instance_index, uint primitive) {
     vec3 edge2 = transform_vector(instance, load_position_os(vertices.z) - p0);
     vec3 from_vertex = ray.origin - transform_point(instance, p0);
     vec3 h = cross(ray.direction, edge2);
+    vec3 g = cross(edge1, ray.direction);
     float determinant = dot(edge1, h);
     if (determinant == 0.0f) return vec2(1.0f / 3.0f);
-    float u = clamp(dot(from_vertex, h) / determinant, 0.0f, 1.0f);
-    float v = dot(ray.direction, cross(from_vertex, edge1)) / determinant;
+    float u = dot(from_vertex, h) / determinant;
+    float v = dot(from_vertex, g) / determinant;
+    vec3 rest = from_vertex - edge1 * u - edge2 * v;
+    rest -= ray.direction * dot(rest, ray.direction);
+    u += dot(rest, h) / determinant;
+    v += dot(rest, g) / determinant;
+    u = clamp(u, 0.0f, 1.0f);
     return vec2(u, clamp(v, 0.0f, 1.0f - u));
 }
 
