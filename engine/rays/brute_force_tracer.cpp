@@ -53,13 +53,11 @@ class BruteForceTracer : public RayTracer {
         return nearest;
     }
 
-    bool is_visible(const RayRecord& ray, const CoverageKey& key) const override {
-        const RayState state = classify_ray(ray);
-        if (state != RayState::TRACEABLE) return state == RayState::INACTIVE;
+  private:
+    bool is_unoccluded(const RayRecord& ray, const CoverageKey& key) const override {
         return !trace_closest(ray, key, BackFaces::HIT).has_value();
     }
 
-  private:
     std::optional<Hit> trace_instance(std::uint32_t index, const RayRecord& ray, const CoverageKey& key,
                                       BackFaces back_faces) const {
         const WorldInstance& instance = world_->instances[index];

@@ -120,22 +120,20 @@ class EmbreeTracer : public RayTracer {
                    ray_hit.ray.tfar};
     }
 
-    bool is_visible(const RayRecord& ray, const CoverageKey& key) const override {
-        const RayState state = classify_ray(ray);
-        if (state != RayState::TRACEABLE) return state == RayState::INACTIVE;
-        QueryContext query = make_query(ray, key);
-        RTCRay shadow;
-        fill_ray(shadow, ray);
-        rtcOccluded1(top_.get(), &query.embree, &shadow);
-        return shadow.tfar >= 0.0f;  // Embree answers with -infinity
-    }
-
   private:
     struct PlacedInstance {
         EmbreeGeometry geometry;
         std::optional<EmbreeMesh> flattened;
         std::uint64_t revision = 0;
     };
+
+    bool is_unoccluded(const RayRecord& ray, const CoverageKey& key) const override {
+        QueryContext query = make_query(ray, key);
+        RTCRay shadow;
+        fill_ray(shadow, ray);
+        rtcOccluded1(top_.get(), &query.embree, &shadow);
+        return shadow.tfar >= 0.0f;  // Embree answers with -infinity
+    }
 
     QueryContext make_query(const RayRecord& ray, const CoverageKey& key) const {
         QueryContext query;
@@ -207,6 +205,8 @@ std::unique_ptr<RayTracer> create_embree_tracer(const World& world) {
     return std::make_unique<EmbreeTracer>(world);
 }
 
-std::string describe_ray_library() { return RTC_VERSION_STRING; }
+std::string describe_ray_library() {
+    return RTC_VERSION_STRING;
+}
 
 }  // namespace tarn

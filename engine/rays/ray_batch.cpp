@@ -18,6 +18,11 @@ constexpr std::size_t RAYS_PER_TASK = 512;
 
 }  // namespace
 
+bool RayTracer::is_visible(const RayRecord& ray, const CoverageKey& key) const {
+    const RayState state = classify_ray(ray);
+    return state == RayState::TRACEABLE ? is_unoccluded(ray, key) : state == RayState::INACTIVE;
+}
+
 RayBatchResult RayTracer::trace_visibility(std::span<const glm::uvec4> ray_rows, std::span<float> visibility,
                                            const CoverageKey& key) const {
     TARN_ASSERT(ray_rows.size() == visibility.size() * RAY_ROWS, "{} ray rows for {} answers",
@@ -32,7 +37,7 @@ RayBatchResult RayTracer::trace_visibility(std::span<const glm::uvec4> ray_rows,
             local.traced += state == RayState::TRACEABLE;
             local.rejected += state == RayState::REJECTED;
             const bool visible =
-                state == RayState::TRACEABLE ? is_visible(ray, key) : state == RayState::INACTIVE;
+                state == RayState::TRACEABLE ? is_unoccluded(ray, key) : state == RayState::INACTIVE;
             visibility[i] = visible ? 1.0f : 0.0f;
         }
         traced += local.traced;

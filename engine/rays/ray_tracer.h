@@ -49,14 +49,18 @@ class RayTracer {
     virtual std::optional<Hit> trace_closest(const RayRecord& ray, const CoverageKey& key,
                                              BackFaces back_faces = BackFaces::HIT) const = 0;
 
-    // Whether nothing covers (0, max_t). Thread-safe.
-    virtual bool is_visible(const RayRecord& ray, const CoverageKey& key) const = 0;
+    // Whether nothing covers (0, max_t). Inactive rays are visible, rejected ones are not. Thread-safe.
+    bool is_visible(const RayRecord& ray, const CoverageKey& key) const;
 
     // Traces a batch on the worker threads: `ray_rows` holds RAY_ROWS rows a ray, `visibility` gets 1
     // (nothing in the way, or inactive ray) or 0 a ray. Both may be memory that GL shares. Same answers for
     // any number of threads.
     RayBatchResult trace_visibility(std::span<const glm::uvec4> ray_rows, std::span<float> visibility,
                                     const CoverageKey& key) const;
+
+  private:
+    // The same for a ray that was checked: finite, with a direction, and active.
+    virtual bool is_unoccluded(const RayRecord& ray, const CoverageKey& key) const = 0;
 };
 
 // Worker threads for ray tracing and the reference: at most `threads` for the life of the returned object (0:

@@ -56,7 +56,8 @@ std::vector<RayRecord> make_rays(const World& world) {
 // Embree as its manual shows it, without anything of the engine.
 class BareEmbree {
   public:
-    explicit BareEmbree(const World& world) : device_(rtcNewDevice(nullptr)), top_(new_scene()) {
+    explicit BareEmbree(const World& world)
+        : device_(rtcNewDevice(nullptr)), top_(new_scene(RTC_SCENE_FLAG_DYNAMIC)) {
         std::vector<RTCScene> meshes;
         for (const WorldMesh& mesh : world.meshes) meshes.push_back(add_mesh(world, mesh));
         for (const WorldInstance& instance : world.instances) {
@@ -86,9 +87,9 @@ class BareEmbree {
     }
 
   private:
-    RTCScene new_scene() const {
+    RTCScene new_scene(RTCSceneFlags more = RTC_SCENE_FLAG_NONE) const {
         RTCScene scene = rtcNewScene(device_);
-        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | more);
         return scene;
     }
 
