@@ -83,8 +83,6 @@ void draw_picture_section(ViewerState& state) {
     ImGui::Checkbox("auto", &state.auto_exposure);
     add_tooltip("Exposure that maps the log-average luminance to middle grey");
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(ImGui::CalcItemWidth() - ImGui::GetCursorPosX() +
-                            ImGui::GetStyle().WindowPadding.x);
     if (ImGui::SliderFloat("exposure", &state.exposure_ev, -20.0f, 20.0f, "%.2f EV"))
         state.auto_exposure = false;
     add_tooltip("Stops: radiance is multiplied by 2^EV before tone mapping");
@@ -118,8 +116,6 @@ void draw_animation_section(ViewerState& state, const ViewerFacts& facts) {
     if (ImGui::Button(state.playing ? "Pause" : "Play")) state.playing = !state.playing;
     add_tooltip("Space");
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(ImGui::CalcItemWidth() - ImGui::GetCursorPosX() +
-                            ImGui::GetStyle().WindowPadding.x);
     const double start_s = 0.0;
     ImGui::SliderScalar("time", ImGuiDataType_Double, &state.time_s, &start_s, &facts.animation_duration_s,
                         "%.2f s");
@@ -189,10 +185,30 @@ void draw_tools_section(ViewerState& state, PanelActions& actions) {
     show_wrapped("Tab hides the panel, Escape ends", QUIET_COLOUR);
 }
 
+// In the lower right corner, so that it moves no widget.
+void draw_message(const ViewerFacts& facts) {
+    if (facts.message.empty()) return;
+    const ImVec2 window = ImGui::GetIO().DisplaySize;
+    const float margin = 0.5f * ImGui::GetFontSize();
+    const float widest = std::min(60.0f * ImGui::GetFontSize(), window.x - 2.0f * margin);
+    ImGui::SetNextWindowPos(ImVec2(window.x - margin, window.y - margin), ImGuiCond_Always,
+                            ImVec2(1.0f, 1.0f));
+    ImGui::Begin("message", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                     ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing);
+    ImGui::PushTextWrapPos(widest);
+    ImGui::PushStyleColor(ImGuiCol_Text, facts.message_is_error ? ERROR_COLOUR : QUIET_COLOUR);
+    show_text(facts.message);
+    ImGui::PopStyleColor();
+    ImGui::PopTextWrapPos();
+    ImGui::End();
+}
+
 }  // namespace
 
 PanelActions draw_panel(ViewerState& state, const ViewerFacts& facts) {
     PanelActions actions;
+    draw_message(facts);
     if (!state.panel_visible) return actions;
     const ImVec2 window = ImGui::GetIO().DisplaySize;
     const float margin = 0.5f * ImGui::GetFontSize();

@@ -59,7 +59,7 @@ struct PanelActions {
     bool reload_shaders = false;
 };
 
-// Describes the panel to Dear ImGui; call between Overlay::begin() and end().
+// Describes the panel and the message to Dear ImGui; call between Overlay::begin() and end().
 PanelActions draw_panel(ViewerState& state, const ViewerFacts& facts);
 
 }  // namespace tarn

@@ -15,6 +15,8 @@ namespace {
 
 constexpr double LONGEST_STEP_S = 0.25;  // a stall (a shader that compiles) is no leap
 constexpr auto RESIZE_DELAY = std::chrono::milliseconds(250);
+constexpr auto MESSAGE_TIME = std::chrono::seconds(5);
+constexpr auto TITLE_INTERVAL = std::chrono::milliseconds(100);
 constexpr double EXPOSURE_TIME_S = 0.4;
 constexpr std::uint32_t EXPOSURE_INTERVAL = 4;  // frames between looks at the picture's luminance
 constexpr std::size_t EXPOSURE_SAMPLES = 4096;
@@ -254,7 +256,9 @@ void Viewer::collect_facts(const FrameOutput& output, double display_ms, double 
     timings.passes.push_back({"display", display_ms});
     timings_.add(timings);
     facts_.timings = timings_.medians();
-    facts_.frames_per_s = dt_s > 0.0 ? 0.9 * facts_.frames_per_s + 0.1 / dt_s : facts_.frames_per_s;
+    // The first frame has none before it.
+    if (frame_ > 0) loop_s_ = loop_s_ == 0.0 ? dt_s : 0.9 * loop_s_ + 0.1 * dt_s;
+    facts_.frames_per_s = loop_s_ > 0.0 ? 1.0 / loop_s_ : 0.0;
     facts_.width_px = renderer_->width_px();
     facts_.height_px = renderer_->height_px();
     facts_.shadow_rays = output.shadow_rays.traced;
@@ -269,6 +273,8 @@ void Viewer::collect_facts(const FrameOutput& output, double display_ms, double 
     facts_.counters = renderer_->read_counters();
     facts_.plan = &renderer_->plan();
     facts_.camera_position_ws = camera_.position_ws;
+    // Errors stay until the next message.
+    if (!facts_.message_is_error && Clock::now() - reported_at_ > MESSAGE_TIME) facts_.message.clear();
 }
 
 void Viewer::apply_panel() {
@@ -279,14 +285,14 @@ void Viewer::apply_panel() {
 }
 
 void Viewer::update_title() {
+    if (Clock::now() - titled_at_ < TITLE_INTERVAL) return;
+    titled_at_ = Clock::now();
     std::string title = fmt::format("Tarn: {} {}x{}", facts_.scene_name, facts_.width_px, facts_.height_px);
     for (const Setting& setting : setting_table()) {
         title += fmt::format(" {}={}", setting.name, setting.format(state_.settings));
     }
-    title += fmt::format(" view={}", display_views()[std::size_t(state_.view)].name);
-    if (title == title_) return;
-    title_ = title;
-    window_.set_title(title_);
+    window_.set_title(
+        title + fmt::format(" view={} frame={}", display_views()[std::size_t(state_.view)].name, frame_));
 }
 
 void Viewer::reload_shaders() {
@@ -319,6 +325,7 @@ void Viewer::write_picture(const std::filesystem::path& file) const {
 void Viewer::report(const std::string& message, bool is_error) {
     facts_.message = message;
     facts_.message_is_error = is_error;
+    reported_at_ = Clock::now();
 }
 
 }  // namespace tarn

@@ -72,12 +72,14 @@ class Viewer {
     RecentTimings timings_;
     FlyCamera camera_;
     std::uint32_t frame_ = 0;
+    double loop_s_ = 0.0;           // from frame to frame, smoothed
     double posed_time_s_ = 0.0;     // what the world shows; state_.time_s is what it should
     glm::ivec2 failed_size_px_{0};  // the driver refused it
     glm::ivec2 wanted_size_px_{0};  // and since when
     Clock::time_point wanted_since_;
     bool exposure_is_set_ = false;
-    std::string title_;
+    Clock::time_point titled_at_;
+    Clock::time_point reported_at_;
 };
 
 }  // namespace tarn

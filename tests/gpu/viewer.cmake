@@ -1,0 +1,12 @@
+# The viewer in a real window with real events, in a display of its own.
+find_program(XDOTOOL xdotool)
+find_program(IMPORT import)
+if(XVFB_RUN AND XDOTOOL AND IMPORT)
+  set(VIEWER_DISPLAY ${XVFB_RUN} -a -s "-screen 0 1280x800x24")
+else()
+  set(VIEWER_DISPLAY env TARN_SKIP_VIEWER=xvfb-run,\ xdotool\ or\ imagemagick\ is\ missing)
+endif()
+add_test(NAME viewer_in_xvfb
+         COMMAND ${VIEWER_DISPLAY} bash ${CMAKE_CURRENT_SOURCE_DIR}/viewer.sh $<TARGET_FILE:tarn>
+                 ${CMAKE_BINARY_DIR}/content/cornell.glb ${CMAKE_BINARY_DIR}/viewer_test)
+set_tests_properties(viewer_in_xvfb PROPERTIES LABELS gpu TIMEOUT 600 RESOURCE_LOCK gl SKIP_RETURN_CODE 77)
