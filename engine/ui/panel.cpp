@@ -47,10 +47,8 @@ void draw_table(const char* id, const Rows& rows, const ShowValue& show_value) {
 }
 
 void draw_headline(const ViewerFacts& facts) {
-    show_text(fmt::format("{}  {}x{}  {:.1f} ms  {:.1f} frames/s", facts.scene_name, facts.width_px,
-                          facts.height_px, facts.timings.frame_ms, facts.frames_per_s));
-    if (!facts.message.empty())
-        show_wrapped(facts.message, facts.message_is_error ? ERROR_COLOUR : QUIET_COLOUR);
+    show_text(fmt::format("{}x{}  {:.1f} ms  {:.1f} frames/s", facts.width_px, facts.height_px,
+                          facts.timings.frame_ms, facts.frames_per_s));
 }
 
 void draw_view_combo(DisplayView& view) {
@@ -125,7 +123,9 @@ void draw_animation_section(ViewerState& state, const ViewerFacts& facts) {
 
 // One row a pass: name, a bar relative to the frame, milliseconds.
 void draw_pass_rows(const FrameTimings& timings) {
-    if (!ImGui::BeginTable("passes", 2, ImGuiTableFlags_SizingStretchSame)) return;
+    if (!ImGui::BeginTable("passes", 2)) return;
+    ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthFixed);
+    ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthStretch);
     const float height = ImGui::GetFontSize();
     for (const PassTiming& pass : timings.passes) {
         ImGui::TableNextRow();
@@ -216,7 +216,8 @@ PanelActions draw_panel(ViewerState& state, const ViewerFacts& facts) {
     ImGui::SetNextWindowPos(ImVec2(margin, margin));
     ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0.0f),
                                         ImVec2(width, std::max(1.0f, window.y - 2.0f * margin)));
-    ImGui::Begin("Tarn", nullptr, ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize);
+    ImGui::Begin((facts.scene_name + "###panel").c_str(), nullptr,
+                 ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize);
     ImGui::PushItemWidth(-9.0f * ImGui::GetFontSize());
     draw_headline(facts);
     if (begin_section("Settings")) draw_settings(state.settings);

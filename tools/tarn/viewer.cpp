@@ -13,7 +13,7 @@
 namespace tarn {
 namespace {
 
-constexpr double LONGEST_STEP_S = 0.25;  // a stall (a shader that compiles) is no leap
+constexpr double LONGEST_STEP_S = 0.5;  // a stall (a shader that compiles) is no leap
 constexpr auto RESIZE_DELAY = std::chrono::milliseconds(250);
 constexpr auto MESSAGE_TIME = std::chrono::seconds(5);
 constexpr auto TITLE_INTERVAL = std::chrono::milliseconds(100);
