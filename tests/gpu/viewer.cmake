@@ -1,4 +1,6 @@
-# The viewer in a real window with real events, in a display of its own.
+# What the window shows: the display pass, and the viewer in a real window with real events.
+tarn_test(display_pass GL LABEL gpu LIBRARIES tarn_passes tarn_platform)
+
 find_program(XDOTOOL xdotool)
 find_program(IMPORT import)
 if(XVFB_RUN AND XDOTOOL AND IMPORT)
