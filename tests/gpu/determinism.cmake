@@ -1,0 +1,8 @@
+# The same seed gives the same bits, whatever the context and the threads. A window gets a display of its own.
+tarn_test(determinism GL LABEL gpu LIBRARIES tarn_image_io tarn_rays tarn_world tarn_scene fmt::fmt)
+if(XVFB_RUN)
+  target_compile_definitions(test_determinism PRIVATE TARN_XVFB_RUN="${XVFB_RUN}")
+else()
+  target_compile_definitions(test_determinism PRIVATE TARN_XVFB_RUN="")
+endif()
+add_dependencies(test_determinism tarn tarn_scenes)

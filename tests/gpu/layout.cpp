@@ -1,0 +1,506 @@
+// Where each field of a record lies: packed in C++ and unpacked by a shader through a texture buffer, packed
+// by a shader into a storage buffer and unpacked in C++; and the offsets of the frame's uniform block as the
+// driver sees them.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstddef>
+
+#include "gl/buffer.h"
+#include "gl/program_library.h"
+#include "gl/texture.h"
+#include "gpu/shader_folder.h"
+#include "platform/context.h"
+#include "shared/interface/frame_block.h"
+#include "shared/interface/records.h"
+#include "shared/math/alias_table.h"
+#include "shared/math/light.h"
+#include "shared/math/reservoir.h"
+#include "support/draws.h"
+#include "support/toy_scenes.h"
+#include "world/world.h"
+
+namespace tarn {
+namespace {
+
+constexpr std::size_t ITEM_COUNT = 256;
+constexpr std::size_t GROUP_SIZE = 64;
+
+using Words = std::vector<std::uint32_t>;  // the fields of a record, one after the other
+using Rows = std::vector<glm::uvec4>;
+
+// Takes the fields of one record out of words, and puts them back: what the shaders below do in GLSL.
+class FieldReader {
+  public:
+    explicit FieldReader(const std::uint32_t* words) : next_(words) {}
+    std::uint32_t take() { return *next_++; }
+    float take1() { return uintBitsToFloat(take()); }
+    vec2 take2() {
+        const float x = take1();
+        return vec2(x, take1());
+    }
+    vec3 take3() {
+        const vec2 xy = take2();
+        return vec3(xy, take1());
+    }
+    vec4 take4() {
+        const vec3 xyz = take3();
+        return vec4(xyz, take1());
+    }
+
+  private:
+    const std::uint32_t* next_;
+};
+
+class FieldWriter {
+  public:
+    void put(std::uint32_t word) { words.push_back(word); }
+    void put(float value) { put(floatBitsToUint(value)); }
+    void put(const vec2& v) { put(v.x), put(v.y); }
+    void put(const vec3& v) { put(v.x), put(v.y), put(v.z); }
+    void put(const vec4& v) { put(vec3(v)), put(v.w); }
+
+    Words words;
+};
+
+struct Record {
+    std::string name;
+    std::uint32_t rows;
+    std::string fields;       // 'f': a number, 'u': a word, 'n': a multiple of 1 / 65535 in [0, 1]
+    std::string glsl_unpack;  // row(i) -> put(field) in order
+    std::string glsl_pack;    // take*() in order -> store(i, row); empty: shaders never write this record
+    std::function<void(FieldReader&, glm::uvec4*)> pack;          // empty: C++ packs it elsewhere
+    std::function<void(const glm::uvec4*, FieldWriter&)> unpack;  // empty: C++ never reads it
+};
+
+void PrintTo(const Record& record, std::ostream* out) {
+    *out << record.name;
+}
+
+const char* const PRELUDE = R"(
+#include "shared/interface/records.h"
+#include "shared/math/alias_table.h"
+#include "shared/math/light.h"
+#include "shared/math/reservoir.h"
+layout(local_size_x = 64) in;
+)";
+
+const char* const UNPACK_SHADER = R"(
+layout(binding = 0) uniform usamplerBuffer rows;
+layout(std430, binding = 0) writeonly buffer Fields { uint fields[]; };
+uint next = gl_GlobalInvocationID.x * WORDS;
+uvec4 row(uint i) { return texelFetch(rows, int(gl_GlobalInvocationID.x * ROWS + i)); }
+void put(uint word) { fields[next++] = word; }
+void put(float value) { put(floatBitsToUint(value)); }
+void put(vec2 v) { put(v.x); put(v.y); }
+void put(vec3 v) { put(v.x); put(v.y); put(v.z); }
+void put(vec4 v) { put(v.xyz); put(v.w); }
+)";
+
+const char* const PACK_SHADER = R"(
+layout(std430, binding = 0) readonly buffer Fields { uint fields[]; };
+layout(std430, binding = 1) writeonly buffer Rows { uvec4 rows[]; };
+uint next = gl_GlobalInvocationID.x * WORDS;
+uint take() { return fields[next++]; }
+float take1() { return uintBitsToFloat(take()); }
+vec2 take2() { vec2 v; v.x = take1(); v.y = take1(); return v; }
+vec3 take3() { vec3 v; v.xy = take2(); v.z = take1(); return v; }
+vec4 take4() { vec4 v; v.xyz = take3(); v.w = take1(); return v; }
+void store(uint i, uvec4 row) { rows[gl_GlobalInvocationID.x * ROWS + i] = row; }
+)";
+
+Record vertex_record() {
+    Record r{"vertex", VERTEX_ROWS, "ffffffffffffffnnnn", {}, {}, {}, {}};
+    // As scene/surface.h takes vertices apart.
+    r.glsl_unpack = R"(
+        put(row_xyz(row(0u))); put(row_xyz(row(1u))); put(row_xyzw(row(2u)));
+        put(uintBitsToFloat(row(0u).w)); put(uintBitsToFloat(row(1u).w));
+        put(uintBitsToFloat(row(3u).x)); put(uintBitsToFloat(row(3u).y));
+        put(unpackUnorm2x16(row(3u).z)); put(unpackUnorm2x16(row(3u).w));)";
+    r.glsl_pack = R"(
+        Vertex v; v.position_os = take3(); v.normal_os = take3(); v.tangent_os = take4(); v.uv0 = take2();
+        v.uv1 = take2(); v.color = take4();
+        uvec4 a, b, c, d; pack_vertex(v, a, b, c, d); store(0u, a); store(1u, b); store(2u, c); store(3u, d);)";
+    r.pack = [](FieldReader& in, glm::uvec4* rows) {
+        Vertex v;
+        v.position_os = in.take3();
+        v.normal_os = in.take3();
+        v.tangent_os = in.take4();
+        v.uv0 = in.take2();
+        v.uv1 = in.take2();
+        v.color = in.take4();
+        pack_vertex(v, rows[0], rows[1], rows[2], rows[3]);
+    };
+    r.unpack = [](const glm::uvec4* rows, FieldWriter& out) {
+        out.put(row_xyz(rows[0]));
+        out.put(row_xyz(rows[1]));
+        out.put(row_xyzw(rows[2]));
+        for (const std::uint32_t word : {rows[0].w, rows[1].w, rows[3].x, rows[3].y}) out.put(word);
+        out.put(unpackUnorm2x16(rows[3].z));
+        out.put(unpackUnorm2x16(rows[3].w));
+    };
+    return r;
+}
+
+Record material_record() {
+    Record r{"material", 4, "fffffffffffuffff", {}, {}, {}, {}};
+    r.glsl_unpack = R"(
+        MaterialRecord m = unpack_material(row(0u), row(1u), row(2u), row(3u));
+        put(m.base_color); put(m.emission); put(m.alpha_cutoff); put(m.metallic); put(m.roughness);
+        put(m.normal_scale); put(m.flags); put(m.dielectric_f0); put(m.dielectric_f90);)";
+    r.glsl_pack = R"(
+        MaterialRecord m; m.base_color = take4(); m.emission = take3(); m.alpha_cutoff = take1(); m.metallic = take1();
+        m.roughness = take1(); m.normal_scale = take1(); m.flags = take(); m.dielectric_f0 = take3();
+        m.dielectric_f90 = take1();
+        uvec4 a, b, c, d; pack_material(m, a, b, c, d); store(0u, a); store(1u, b); store(2u, c); store(3u, d);)";
+    r.pack = [](FieldReader& in, glm::uvec4* rows) {
+        MaterialRecord m;
+        m.base_color = in.take4();
+        m.emission = in.take3();
+        m.alpha_cutoff = in.take1();
+        m.metallic = in.take1();
+        m.roughness = in.take1();
+        m.normal_scale = in.take1();
+        m.flags = in.take();
+        m.dielectric_f0 = in.take3();
+        m.dielectric_f90 = in.take1();
+        pack_material(m, rows[0], rows[1], rows[2], rows[3]);
+    };
+    r.unpack = [](const glm::uvec4* rows, FieldWriter& out) {
+        const MaterialRecord m = unpack_material(rows[0], rows[1], rows[2], rows[3]);
+        out.put(m.base_color);
+        out.put(m.emission);
+        for (const float f : {m.alpha_cutoff, m.metallic, m.roughness, m.normal_scale}) out.put(f);
+        out.put(m.flags);
+        out.put(m.dielectric_f0);
+        out.put(m.dielectric_f90);
+    };
+    return r;
+}
+
+Record slot_record() {
+    Record r{"slot", 2, "uuufffff", {}, {}, {}, {}};
+    r.glsl_unpack = R"(
+        SlotRecord s = unpack_slot(row(0u), row(1u));
+        put(s.first_texel); put(s.size); put(s.flags); put(s.rotation_rad); put(s.offset); put(s.scale);)";
+    r.glsl_pack = R"(
+        SlotRecord s; s.first_texel = take(); s.size = take(); s.flags = take(); s.rotation_rad = take1();
+        s.offset = take2(); s.scale = take2();
+        uvec4 a, b; pack_slot(s, a, b); store(0u, a); store(1u, b);)";
+    r.pack = [](FieldReader& in, glm::uvec4* rows) {
+        SlotRecord s;
+        s.first_texel = in.take();
+        s.size = in.take();
+        s.flags = in.take();
+        s.rotation_rad = in.take1();
+        s.offset = in.take2();
+        s.scale = in.take2();
+        pack_slot(s, rows[0], rows[1]);
+    };
+    r.unpack = [](const glm::uvec4* rows, FieldWriter& out) {
+        const SlotRecord s = unpack_slot(rows[0], rows[1]);
+        for (const std::uint32_t word : {s.first_texel, s.size, s.flags}) out.put(word);
+        out.put(s.rotation_rad);
+        out.put(s.offset);
+        out.put(s.scale);
+    };
+    return r;
+}
+
+Record light_record() {
+    Record r{"light", LIGHT_ROWS, "fffufffufffuffff", {}, {}, {}, {}};
+    r.glsl_unpack = R"(
+        Light l = unpack_light(row(0u), row(1u), row(2u), row(3u));
+        put(l.position); put(l.flags); put(l.edge1); put(l.instance); put(l.edge2); put(l.primitive);
+        put(l.radiance); put(l.range);)";
+    r.glsl_pack = R"(
+        Light l; l.position = take3(); l.flags = take(); l.edge1 = take3(); l.instance = take(); l.edge2 = take3();
+        l.primitive = take(); l.radiance = take3(); l.range = take1();
+        uvec4 a, b, c, d; pack_light(l, a, b, c, d); store(0u, a); store(1u, b); store(2u, c); store(3u, d);)";
+    r.pack = [](FieldReader& in, glm::uvec4* rows) {
+        Light l;
+        l.position = in.take3();
+        l.flags = in.take();
+        l.edge1 = in.take3();
+        l.instance = in.take();
+        l.edge2 = in.take3();
+        l.primitive = in.take();
+        l.radiance = in.take3();
+        l.range = in.take1();
+        pack_light(l, rows[0], rows[1], rows[2], rows[3]);
+    };
+    r.unpack = [](const glm::uvec4* rows, FieldWriter& out) {
+        const Light l = unpack_light(rows[0], rows[1], rows[2], rows[3]);
+        out.put(l.position), out.put(l.flags);
+        out.put(l.edge1), out.put(l.instance);
+        out.put(l.edge2), out.put(l.primitive);
+        out.put(l.radiance), out.put(l.range);
+    };
+    return r;
+}
+
+Record reservoir_record() {
+    Record r{"reservoir", RESERVOIR_ROWS, "uffff", {}, {}, {}, {}};
+    r.glsl_unpack = R"(
+        Reservoir r = unpack_reservoir(row(0u), row(1u));
+        put(r.chosen.light); put(r.chosen.uv); put(r.contribution_weight); put(r.confidence);)";
+    r.glsl_pack = R"(
+        Reservoir r; r.chosen.light = take(); r.chosen.uv = take2(); r.contribution_weight = take1();
+        r.confidence = take1();
+        uvec4 a, b; pack_reservoir(r, a, b); store(0u, a); store(1u, b);)";
+    r.pack = [](FieldReader& in, glm::uvec4* rows) {
+        Reservoir reservoir;
+        reservoir.chosen.light = in.take();
+        reservoir.chosen.uv = in.take2();
+        reservoir.contribution_weight = in.take1();
+        reservoir.confidence = in.take1();
+        pack_reservoir(reservoir, rows[0], rows[1]);
+    };
+    r.unpack = [](const glm::uvec4* rows, FieldWriter& out) {
+        const Reservoir reservoir = unpack_reservoir(rows[0], rows[1]);
+        out.put(reservoir.chosen.light);
+        out.put(reservoir.chosen.uv);
+        out.put(reservoir.contribution_weight);
+        out.put(reservoir.confidence);
+    };
+    return r;
+}
+
+Record ray_record() {
+    Record r{"ray", RAY_ROWS, "fffffffu", {}, {}, {}, {}};
+    r.glsl_unpack = R"(
+        RayRecord r = unpack_ray(row(0u), row(1u));
+        put(r.origin); put(r.max_t); put(r.direction); put(r.pixel);)";
+    r.glsl_pack = R"(
+        RayRecord r; r.origin = take3(); r.max_t = take1(); r.direction = take3(); r.pixel = take();
+        uvec4 a, b; pack_ray(r, a, b); store(0u, a); store(1u, b);)";
+    r.pack = [](FieldReader& in, glm::uvec4* rows) {
+        RayRecord ray;
+        ray.origin = in.take3();
+        ray.max_t = in.take1();
+        ray.direction = in.take3();
+        ray.pixel = in.take();
+        pack_ray(ray, rows[0], rows[1]);
+    };
+    r.unpack = [](const glm::uvec4* rows, FieldWriter& out) {
+        const RayRecord ray = unpack_ray(rows[0], rows[1]);
+        out.put(ray.origin);
+        out.put(ray.max_t);
+        out.put(ray.direction);
+        out.put(ray.pixel);
+    };
+    return r;
+}
+
+Record alias_record() {
+    Record r{"alias_bucket", 1, "fuff", {}, {}, {}, {}};
+    r.glsl_unpack = R"(
+        AliasBucket b = unpack_alias_bucket(row(0u));
+        put(b.threshold); put(b.alias); put(b.pmf_own); put(b.pmf_alias);)";
+    r.glsl_pack = R"(
+        AliasBucket b; b.threshold = take1(); b.alias = take(); b.pmf_own = take1(); b.pmf_alias = take1();
+        store(0u, pack_alias_bucket(b));)";
+    r.pack = [](FieldReader& in, glm::uvec4* rows) {
+        AliasBucket b;
+        b.threshold = in.take1();
+        b.alias = in.take();
+        b.pmf_own = in.take1();
+        b.pmf_alias = in.take1();
+        rows[0] = pack_alias_bucket(b);
+    };
+    r.unpack = [](const glm::uvec4* rows, FieldWriter& out) {
+        const AliasBucket b = unpack_alias_bucket(rows[0]);
+        out.put(b.threshold), out.put(b.alias), out.put(b.pmf_own), out.put(b.pmf_alias);
+    };
+    return r;
+}
+
+Words random_fields(const Record& record) {
+    const float odd[] = {0.0f, -0.0f, 1e30f, -1e-30f, 1.0f};
+    test::Draws draws(record.fields.size());
+    Words words;
+    for (std::size_t i = 0; i < ITEM_COUNT; ++i) {
+        for (const char kind : record.fields) {
+            const std::uint32_t bits = draws.bits();
+            const float value = bits % 4u == 0u ? odd[bits / 4u % 5u] : float(draws.uniform(-1e3, 1e3));
+            words.push_back(kind == 'u'   ? bits
+                            : kind == 'f' ? floatBitsToUint(value)
+                                          : floatBitsToUint(float(bits & 0xffffu) / 65535.0f));
+        }
+    }
+    return words;
+}
+
+class Layout : public testing::TestWithParam<Record> {
+  protected:
+    static void SetUpTestSuite() { context_ = create_context({}); }
+    static void TearDownTestSuite() { context_.reset(); }
+
+    Layout() {
+        std::filesystem::create_directory_symlink(
+            std::filesystem::path(TARN_SOURCE_DIR) / "shaders" / "shared", folder_.root() / "shared");
+    }
+
+    static std::size_t words_of(const Record& r) { return r.fields.size(); }
+
+    void dispatch(const Record& record, const char* access, const std::string& body) {
+        folder_.write("layout.comp", PRELUDE + std::string(access) + "void main() {" + body + "}\n");
+        const std::vector<std::string> defines = {fmt::format("WORDS={}u", words_of(record)),
+                                                  fmt::format("ROWS={}u", record.rows)};
+        const ShaderStage stage{GL_COMPUTE_SHADER,
+                                load_shader_source(folder_.root(), "layout.comp", defines)};
+        const Program program("layout", std::span(&stage, 1));
+        program.use();
+        glDispatchCompute(ITEM_COUNT / GROUP_SIZE, 1, 1);
+        glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    }
+
+    // What a shader finds in rows that C++ packed.
+    Words unpack_on_gl(const Record& record, const Rows& rows) {
+        const Buffer buffer = Buffer::from("rows", rows);
+        const BufferTexture texture("rows", buffer, GL_RGBA32UI);
+        const Buffer fields("fields", rows.size() / record.rows * words_of(record) * sizeof(std::uint32_t),
+                            BufferUse::DEVICE);
+        texture.bind(0);
+        fields.bind_storage(0);
+        dispatch(record, UNPACK_SHADER, record.glsl_unpack);
+        return fields.download<std::uint32_t>();
+    }
+
+    Rows pack_on_gl(const Record& record, const Words& fields) {
+        const Buffer in = Buffer::from("fields", fields);
+        const Buffer out("rows", ITEM_COUNT * record.rows * sizeof(glm::uvec4), BufferUse::DEVICE);
+        in.bind_storage(0);
+        out.bind_storage(1);
+        dispatch(record, PACK_SHADER, record.glsl_pack);
+        return out.download<glm::uvec4>();
+    }
+
+    // First field of which item differs; "" where all are the same bits.
+    static std::string find_difference(const Record& record, const Words& expected, const Words& actual) {
+        if (expected.size() != actual.size()) return "another number of fields";
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+            if (expected[i] == actual[i]) continue;
+            // A driver may divide by 65535 with another rounding.
+            const bool is_norm = record.fields[i % words_of(record)] == 'n';
+            const float a = std::bit_cast<float>(expected[i]), b = std::bit_cast<float>(actual[i]);
+            if (is_norm && std::abs(a - b) < 1e-6f) continue;
+            return fmt::format("item {}, field {}: {:#x} became {:#x}", i / words_of(record),
+                               i % words_of(record), expected[i], actual[i]);
+        }
+        return "";
+    }
+
+    ShaderFolder folder_;
+    static inline std::unique_ptr<Context> context_;
+};
+
+TEST_P(Layout, ShadersUnpackWhatCppPacked) {
+    const Record& record = GetParam();
+    const Words fields = random_fields(record);
+    Rows rows(ITEM_COUNT * record.rows);
+    for (std::size_t i = 0; i < ITEM_COUNT; ++i) {
+        FieldReader reader(&fields[i * words_of(record)]);
+        record.pack(reader, &rows[i * record.rows]);
+    }
+    EXPECT_EQ(find_difference(record, fields, unpack_on_gl(record, rows)), "");
+}
+
+TEST_P(Layout, CppUnpacksWhatShadersPacked) {
+    const Record& record = GetParam();
+    const Words fields = random_fields(record);
+    const Rows rows = pack_on_gl(record, fields);
+    FieldWriter writer;
+    for (std::size_t i = 0; i < ITEM_COUNT; ++i) record.unpack(&rows[i * record.rows], writer);
+    EXPECT_EQ(find_difference(record, fields, writer.words), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Records, Layout,
+                         testing::Values(vertex_record(), material_record(), slot_record(), light_record(),
+                                         reservoir_record(), ray_record(), alias_record()),
+                         [](const auto& info) { return info.param.name; });
+
+// ---- Records that only the world packs
+// ------------------------------------------------------------------------------
+
+class WorldLayout : public Layout {};
+
+TEST_F(WorldLayout, ShadersUnpackInstancesAsTheWorldPlacesThem) {
+    ToyScene toy;
+    const MaterialIndex first = toy.add_material(lambert_material(glm::vec3(0.5f)));
+    const MaterialIndex second = toy.add_material(lambert_material(glm::vec3(0.25f)));
+    toy.add_quad(first, {-1, 0, -1}, {2, 0, 0}, {0, 0, 2});
+    const MeshIndex mesh = toy.add_mesh(second, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    const glm::dmat4 mirror = glm::scale(glm::dmat4(1.0), {-1.0, 2.0, 3.0});
+    toy.add_instance(mesh, glm::translate(glm::dmat4(1.0), {0.25, 0.5, -0.75}) * mirror);
+    const World world = build_world(toy.scene);
+    ASSERT_EQ(world.instances.size(), 2u);
+    Rows rows = world.instance_rows;
+    rows.resize(ITEM_COUNT * INSTANCE_ROWS);
+    Record record{"instance", INSTANCE_ROWS, "ffffffffffffuuuu", {}, {}, {}, {}};
+    record.glsl_unpack = R"(
+        InstanceRecord r = unpack_instance(row(0u), row(1u), row(2u), row(3u));
+        put(r.world_from_object[0]); put(r.world_from_object[1]); put(r.world_from_object[2]);
+        put(r.first_triangle); put(r.first_vertex); put(r.material); put(r.flags);)";
+    const Words fields = unpack_on_gl(record, rows);
+    const glm::dvec3 place = glm::dvec3(0.25, 0.5, -0.75) - world.origin_ws;
+    FieldWriter expected;
+    expected.put(vec4(-1, 0, 0, float(place.x)));
+    expected.put(vec4(0, 2, 0, float(place.y)));
+    expected.put(vec4(0, 0, 3, float(place.z)));
+    for (const std::uint32_t word : {2u, 6u, 1u, INSTANCE_MIRRORED}) expected.put(word);
+    for (std::size_t i = 0; i < 16; ++i) {
+        const std::uint32_t actual = fields[16 + i];
+        if (i < 12) {
+            EXPECT_EQ(std::bit_cast<float>(actual), std::bit_cast<float>(expected.words[i])) << "field " << i;
+        } else {
+            EXPECT_EQ(actual, expected.words[i]) << "field " << i;
+        }
+    }
+}
+
+// ---- The frame's uniform block
+// --------------------------------------------------------------------------------------
+
+GLint query(GLuint program, GLenum interface, GLuint index, GLenum property) {
+    GLint value = -1;
+    glGetProgramResourceiv(program, interface, index, 1, &property, 1, nullptr, &value);
+    return value;
+}
+
+class BlockLayout : public Layout {};
+
+TEST_F(BlockLayout, TheFrameBlockHasTheDriversOffsets) {
+    folder_.write("frame.comp", R"(
+        #include "shared/interface/frame_block.h"
+        layout(local_size_x = 1) in;
+        layout(std430, binding = 0) writeonly buffer Sums { vec4 sum; };
+        void main() {
+            sum = frame_camera_position + frame_camera_right + frame_camera_up + frame_camera_forward +
+                  vec4(frame_size) + vec4(frame_lights);
+        })");
+    const ShaderStage stage{GL_COMPUTE_SHADER, load_shader_source(folder_.root(), "frame.comp", {})};
+    const Program program("frame", std::span(&stage, 1));
+    const std::pair<const char*, std::size_t> members[] = {
+        {"frame_camera_position", offsetof(FrameBlock, frame_camera_position)},
+        {"frame_camera_right", offsetof(FrameBlock, frame_camera_right)},
+        {"frame_camera_up", offsetof(FrameBlock, frame_camera_up)},
+        {"frame_camera_forward", offsetof(FrameBlock, frame_camera_forward)},
+        {"frame_size", offsetof(FrameBlock, frame_size)},
+        {"frame_lights", offsetof(FrameBlock, frame_lights)},
+    };
+    for (const auto& [name, offset] : members) {
+        const GLuint index = glGetProgramResourceIndex(program.id(), GL_UNIFORM, name);
+        ASSERT_NE(index, GL_INVALID_INDEX) << name;
+        EXPECT_EQ(query(program.id(), GL_UNIFORM, index, GL_OFFSET), GLint(offset)) << name;
+    }
+    const GLuint block = glGetProgramResourceIndex(program.id(), GL_UNIFORM_BLOCK, "FrameBlock");
+    ASSERT_NE(block, GL_INVALID_INDEX);
+    EXPECT_EQ(query(program.id(), GL_UNIFORM_BLOCK, block, GL_BUFFER_DATA_SIZE), GLint(sizeof(FrameBlock)));
+    EXPECT_EQ(query(program.id(), GL_UNIFORM_BLOCK, block, GL_BUFFER_BINDING), BLOCK_FRAME);
+    EXPECT_EQ(query(program.id(), GL_UNIFORM_BLOCK, block, GL_NUM_ACTIVE_VARIABLES),
+              GLint(std::size(members)));
+}
+
+}  // namespace
+}  // namespace tarn

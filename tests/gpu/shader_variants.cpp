@@ -1,0 +1,117 @@
+// Every shader under shaders/passes compiles and links in every variant that a plan can ask for, without a
+// complaint of the driver.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "gl/program_library.h"
+#include "passes/display.h"
+#include "platform/context.h"
+
+namespace tarn {
+namespace {
+
+using Defines = std::vector<std::string>;
+
+Defines operator+(Defines first, const Defines& second) {
+    first.insert(first.end(), second.begin(), second.end());
+    return first;
+}
+
+// What a scene can have (plan/frame_plan.cpp). Some of it implies more: a normal map is a texture, and a
+// textured light is a triangle with a texture.
+std::vector<Defines> list_scene_variants() {
+    std::vector<Defines> result;
+    for (const Defines& textures :
+         {Defines{}, Defines{"TARN_TEXTURES"}, Defines{"TARN_TEXTURES", "TARN_NORMAL_MAPS"}}) {
+        std::vector<Defines> triangles = {{}, {"TARN_TRIANGLE_LIGHTS"}};
+        if (!textures.empty()) triangles.push_back({"TARN_TRIANGLE_LIGHTS", "TARN_TEXTURED_LIGHTS"});
+        for (const Defines& environment : {Defines{}, Defines{"TARN_ENVIRONMENT"}}) {
+            for (const Defines& punctual : {Defines{}, Defines{"TARN_PUNCTUAL_LIGHTS"}}) {
+                for (const Defines& triangle : triangles)
+                    result.push_back(textures + environment + punctual + triangle);
+            }
+        }
+    }
+    return result;
+}
+
+// "direct/shade" for each entry shader; a vertex shader and its fragment shader count once.
+std::set<std::string> list_passes() {
+    const std::filesystem::path folder = get_shader_root() / "passes";
+    std::set<std::string> result;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        if (entry.is_regular_file()) {
+            result.insert(
+                std::filesystem::relative(entry.path(), folder).replace_extension().generic_string());
+        }
+    }
+    return result;
+}
+
+bool is_graphics(const std::string& pass) {
+    return std::filesystem::exists(get_shader_root() / "passes" / (pass + ".vert"));
+}
+
+// Variants of one pass besides what the scene has.
+std::vector<Defines> list_own_variants(const std::string& pass) {
+    if (pass == "direct/candidates") return {{"TARN_DIRECT_UNIFORM"}, {"TARN_DIRECT_RIS"}};
+    if (pass == "gbuffer/raster") return {{}, {"TARN_COVERAGE"}};
+    return {{}};
+}
+
+class ShaderVariants : public testing::TestWithParam<std::string> {
+  protected:
+    static void SetUpTestSuite() {
+        ContextOptions options;
+        options.debug = true;
+        context_ = create_context(options);
+    }
+    static void TearDownTestSuite() { context_.reset(); }
+    void SetUp() override { take_debug_errors(); }
+
+    void compile(const Defines& defines) {
+        const std::string& pass = GetParam();
+        is_graphics(pass) ? programs_.graphics(pass, defines) : programs_.compute(pass, defines);
+        const std::vector<std::string> complaints = take_debug_errors();
+        std::string variant = pass;
+        for (const std::string& define : defines) variant += " " + define;
+        EXPECT_TRUE(complaints.empty()) << variant << ": " << complaints.front();
+    }
+
+    ProgramLibrary programs_;
+    static inline std::unique_ptr<Context> context_;
+};
+
+TEST_P(ShaderVariants, AllCompile) {
+    if (GetParam() == "display") {
+        for (const DisplayViewInfo& view : display_views()) compile({view.define});
+        EXPECT_EQ(programs_.program_count(), display_views().size());
+        return;
+    }
+    for (const Defines& own : list_own_variants(GetParam())) {
+        for (const Defines& scene : list_scene_variants()) compile(scene + own);
+    }
+    EXPECT_EQ(programs_.program_count(), list_own_variants(GetParam()).size() * list_scene_variants().size());
+    // What tests plant must compile too, or they would find the wrong fault.
+    for (const char* bug : {"TARN_PLANT_DROP_PDF", "TARN_PLANT_DROP_COSINE", "TARN_PLANT_SHIFT_LIGHT"}) {
+        compile({"TARN_TRIANGLE_LIGHTS", bug});
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Passes, ShaderVariants, testing::ValuesIn(list_passes()), [](const auto& info) {
+    std::string name = info.param;
+    std::replace(name.begin(), name.end(), '/', '_');
+    return name;
+});
+
+TEST(ShaderVariantList, NamesEveryPassOfTheFolder) {
+    const std::set<std::string> passes = list_passes();
+    for (const char* known :
+         {"direct/candidates", "direct/shade", "display", "gbuffer/raster", "gbuffer/resolve"}) {
+        EXPECT_TRUE(passes.contains(known)) << known;
+    }
+}
+
+}  // namespace
+}  // namespace tarn
