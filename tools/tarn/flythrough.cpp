@@ -102,6 +102,7 @@ void run_flythrough(FlythroughCommand& command) {
         load_camera_path(command.path_file.empty() ? default_path_file() : std::filesystem::path(command.path_file));
     if (command.options.scene.scene.empty()) command.options.scene.scene = path.scene;
     if (command.options.scene.scene.empty()) throw Error("{}: names no scene; give one", command.path_file);
+    if (!command.options.json_file.empty()) check_output_folder(command.options.json_file);
     create_folder(command.out);
     RenderSession session(command.options);
     Renderer& renderer = session.renderer();
@@ -153,6 +154,9 @@ void add_flythrough_command(CLI::App& app) {
     auto command = std::make_shared<FlythroughCommand>();
     add_render_options(*sub, command->options);
     sub->get_option("SCENE")->required(false)->description("glTF file or generated scene (default: the path's own)");
+    // The path says where from and when.
+    sub->remove_option(sub->get_option("--camera"));
+    sub->remove_option(sub->get_option("--time"));
     sub->add_option("--path", command->path_file, "Camera path, a JSON file (default: through lantern_court)");
     sub->add_option("--out", command->out, "Folder for the pictures and report.json")->capture_default_str();
     sub->add_option("--frames", command->frames, "Frames along the path")->check(CLI::Range(1, 1000000))->capture_default_str();

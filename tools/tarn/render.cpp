@@ -23,6 +23,7 @@ void check_output(const std::string& file) {
     if (extension != ".exr" && extension != ".png") {
         throw Error("{}: the picture's name must end in .exr or .png", file);
     }
+    check_output_folder(file);
 }
 
 // Sum of frames in double, so that a thousand of them lose nothing.
@@ -54,6 +55,7 @@ void write_picture(const std::string& file, const Image& radiance, const std::op
 
 void run_render(const RenderCommand& command) {
     check_output(command.out);
+    if (!command.options.json_file.empty()) check_output_folder(command.options.json_file);
     RenderSession session(command.options);
     Renderer& renderer = session.renderer();
     FrameInput input;

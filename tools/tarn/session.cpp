@@ -1,6 +1,8 @@
 #include "session.h"
 
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -70,7 +72,12 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
     command.add_option("--context", options.context, "Where GL comes from [egl, glfw, osmesa]")
         ->check(CLI::IsMember({"egl", "glfw", "osmesa"}))
         ->capture_default_str();
-    command.add_option("--exposure", options.exposure_ev, "Exposure of PNG pictures, EV (default: automatic)");
+    command.add_option("--exposure", options.exposure_ev, "Exposure of PNG pictures, EV (default: automatic)")
+        ->check([](const std::string& text) {
+            // The conversion itself takes "nan" and "inf" for numbers.
+            const bool is_odd = !text.empty() && !std::isfinite(std::strtod(text.c_str(), nullptr));
+            return is_odd ? fmt::format("'{}' is not a finite number", text) : std::string();
+        });
     command.add_option("--json", options.json_file, "Write timings, counters and settings to this file");
 }
 
@@ -98,7 +105,8 @@ nlohmann::json RenderSession::describe_machine() const {
 }
 
 void RunTotals::add(const FrameOutput& output) {
-    if (frames > 0) timings.add(output.timings);
+    if (frames == 1) timings = TimingLog();
+    timings.add(output.timings);
     shadow_rays += output.shadow_rays.traced;
     ++frames;
 }
@@ -126,6 +134,13 @@ void create_folder(const std::filesystem::path& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) throw Error("{}: the folder cannot be made: {}", folder.string(), error.message());
+}
+
+void check_output_folder(const std::filesystem::path& file) {
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    if (!std::filesystem::is_directory(folder)) {
+        throw Error("{}: the folder {} does not exist", file.string(), folder.string());
+    }
 }
 
 void write_text(const std::filesystem::path& file, const std::string& text) {

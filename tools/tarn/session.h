@@ -53,7 +53,7 @@ struct RunTotals {
     std::uint64_t shadow_rays = 0;
     int frames = 0;
 
-    // Counts a frame; the first one's time holds the compilation of shaders and is left out.
+    // Counts a frame. The first one's time holds the compilation of shaders: it goes once there is a second.
     void add(const FrameOutput& output);
 };
 
@@ -62,6 +62,9 @@ nlohmann::json make_report(const RenderOptions& options, RenderSession& session,
 
 // Makes a folder and its parents. Throws Error that names it.
 void create_folder(const std::filesystem::path& folder);
+
+// Throws Error where the folder of `file` does not exist: to be found before the work is done, not after it.
+void check_output_folder(const std::filesystem::path& file);
 
 // Writes text whole or not at all. Throws Error that names the file.
 void write_text(const std::filesystem::path& file, const std::string& text);

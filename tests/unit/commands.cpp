@@ -1,0 +1,200 @@
+// The command line as a person meets it, as far as it needs no GL: help, wrong usage (status 2), a world that
+// disappoints (status 1 and one line), Ctrl-C.
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "image_io/image_io.h"
+#include "support/process.h"
+
+namespace tarn::test {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+std::string cornell() {
+    return TARN_BUILD_DIR "/content/cornell.glb";
+}
+
+Arguments operator+(Arguments first, const Arguments& second) {
+    first.insert(first.end(), second.begin(), second.end());
+    return first;
+}
+
+// GTest shows the last line that a failure needs.
+std::string join(const Arguments& arguments) {
+    std::string text;
+    for (const std::string& argument : arguments) text += argument + " ";
+    return text;
+}
+
+// ---- Help
+// -----------------------------------------------------------------------------------------------------------
+
+const Arguments SCENE_OPTIONS = {"SCENE",  "--size",    "--camera", "--environment",
+                                 "--seed", "--threads", "--time",   "--scene"};
+const Arguments RENDER_OPTIONS = {"--direct", "--candidates", "--context", "--exposure"};
+
+void expect_help(const Arguments& command, const Arguments& words) {
+    const ProcessResult result = run_tarn(command + Arguments{"--help"});
+    EXPECT_EQ(result.status, 0);
+    EXPECT_EQ(result.err, "");
+    for (const std::string& word : words) {
+        EXPECT_NE(result.out.find(word), std::string::npos)
+            << join(command) << "--help does not mention " << word;
+    }
+}
+
+TEST(Help, NamesTheCommands) {
+    expect_help({}, {"info", "render", "reference", "compare", "flythrough", "view"});
+}
+
+TEST(Help, NamesEveryOption) {
+    expect_help({"info"}, {"SCENE", "--json"});
+    expect_help({"render"},
+                SCENE_OPTIONS + RENDER_OPTIONS + Arguments{"--out", "--frames", "--accumulate", "--json"});
+    expect_help({"reference"}, SCENE_OPTIONS + Arguments{"--out", "--spp", "--relative-error", "--bounces",
+                                                         "--direct-only", "--pixel", "--json"});
+    expect_help({"compare"}, {"REFERENCE", "IMAGE", "--json", "--difference", "--exposure"});
+    expect_help({"flythrough"},
+                RENDER_OPTIONS + Arguments{"SCENE", "--path", "--out", "--size", "--frames", "--pictures",
+                                           "--measured", "--reference-spp", "--json"});
+    expect_help({"view"}, SCENE_OPTIONS + RENDER_OPTIONS);
+}
+
+// ---- Wrong usage
+// ----------------------------------------------------------------------------------------------------
+
+TEST(WrongUsage, EndsWithStatus2AndSaysWhatIsWrong) {
+    const TemporaryFolder folder;
+    const Arguments render = {"render", cornell(), "--out", folder.file("a.png"), "--size", "8x8"};
+    const Arguments reference = {"reference", cornell(), "--out", folder.file("a.exr"), "--size", "8x8"};
+    const Arguments one_sample = reference + Arguments{"--spp", "1"};
+    for (const Arguments& arguments : {
+             Arguments{},
+             Arguments{"bogus"},
+             Arguments{"render"},
+             Arguments{"render", cornell()},
+             render + Arguments{"--bogus"},
+             render + Arguments{"--size", "0x5"},
+             render + Arguments{"--size", "640"},
+             render + Arguments{"--size", "8x8x8"},
+             render + Arguments{"--size", "99999x8"},
+             render + Arguments{"--seed", "-1"},
+             render + Arguments{"--seed", "4294967296"},
+             render + Arguments{"--frames", "0"},
+             render + Arguments{"--frames", "many"},
+             render + Arguments{"--threads", "-1"},
+             render + Arguments{"--direct", "best"},
+             render + Arguments{"--candidates", "0"},
+             render + Arguments{"--candidates", "1e9"},
+             render + Arguments{"--candidates", "nan"},
+             render + Arguments{"--context", "vulkan"},
+             render + Arguments{"--exposure", "bright"},
+             render + Arguments{"--exposure", "nan"},
+             render + Arguments{"--exposure", "inf"},
+             reference,
+             reference + Arguments{"--spp", "0"},
+             reference + Arguments{"--relative-error", "-1"},
+             one_sample + Arguments{"--relative-error", "1"},
+             one_sample + Arguments{"--bounces", "99"},
+             one_sample + Arguments{"--pixel", "corner"},
+             Arguments{"reference", cornell(), "--out", folder.file("a.png"), "--spp", "1"},
+             Arguments{"flythrough", "--frames", "0"},
+             Arguments{"compare", "a.exr"},
+             Arguments{"info"},
+         }) {
+        const ProcessResult result = run_tarn(arguments);
+        EXPECT_EQ(result.status, 2) << join(arguments) << result.err;
+        EXPECT_GT(result.error_lines(), 0) << join(arguments);
+    }
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+// ---- A world that disappoints
+// -----------------------------------------------------------------------------------------
+
+// Status 1, and one line on stderr that holds `word`.
+void expect_one_line(const Arguments& arguments, const std::string& word) {
+    const ProcessResult result = run_tarn(arguments);
+    EXPECT_EQ(result.status, 1) << join(arguments);
+    EXPECT_EQ(result.error_lines(), 1) << join(arguments) << "\n" << result.err;
+    EXPECT_TRUE(result.err.starts_with("tarn: ")) << result.err;
+    EXPECT_NE(result.err.find(word), std::string::npos) << join(arguments) << "\n" << result.err;
+}
+
+TEST(Disappointment, IsOneLineThatNamesTheFile) {
+    const TemporaryFolder folder;
+    const std::string picture = folder.file("a.exr");
+    for (const std::string command : {"render", "reference"}) {
+        const auto with = [&](const std::string& scene, const std::string& out) {
+            Arguments arguments = {command, scene, "--out", out, "--size", "8x8"};
+            return command == "reference" ? arguments + Arguments{"--spp", "1"} : arguments;
+        };
+        expect_one_line(with(folder.file("gone.glb"), picture), "gone.glb");
+        expect_one_line(with(folder.path().string(), picture), folder.path().string());
+        expect_one_line(with("no_such_scene", picture), "no_such_scene");
+        expect_one_line(with(cornell(), picture) + Arguments{"--environment", folder.file("gone.hdr")},
+                        "gone.hdr");
+        expect_one_line(with(cornell(), picture) + Arguments{"--environment", cornell()}, "cornell.glb");
+        expect_one_line(with(cornell(), picture) + Arguments{"--scene", "7"}, "scene 7");
+    }
+    expect_one_line({"render", cornell(), "--out", folder.file("a.jpg")}, "a.jpg");
+    expect_one_line({"render", cornell(), "--out", folder.path().string()}, folder.path().string());
+    expect_one_line({"info", folder.file("gone.glb")}, "gone.glb");
+    expect_one_line({"compare", folder.file("gone.exr"), folder.file("gone.exr")}, "gone.exr");
+    expect_one_line({"flythrough", "--path", folder.file("gone.json"), "--out", folder.file("fly")},
+                    "gone.json");
+    EXPECT_FALSE(std::filesystem::exists(picture));
+}
+
+TEST(Disappointment, AFolderThatIsNotThereIsFoundBeforeTheWorkIsDone) {
+    const TemporaryFolder folder;
+    const std::string gone = folder.file("gone");
+    // Each would take minutes to get as far as writing.
+    expect_one_line({"render", cornell(), "--out", gone + "/a.png", "--frames", "100000"}, gone);
+    expect_one_line({"render", cornell(), "--out", folder.file("a.png"), "--json", gone + "/a.json",
+                     "--frames", "100000"},
+                    gone);
+    expect_one_line({"reference", cornell(), "--out", gone + "/a.exr", "--spp", "1000000"}, gone);
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(Disappointment, AnUnknownCameraListsThoseThatExist) {
+    const TemporaryFolder folder;
+    const Arguments reference = {
+        "reference", TARN_BUILD_DIR "/content/lantern_court.glb", "--out", folder.file("a.exr"), "--spp", "1",
+        "--camera"};
+    for (const char* name : {"main", "arcade", "balcony", "closeup"}) {
+        expect_one_line(reference + Arguments{"nobody"}, std::string("'") + name + "'");
+    }
+    expect_one_line(reference + Arguments{"4"}, "'4'");
+    expect_one_line(reference + Arguments{"0,0,0,1,1,1"}, "0,0,0,1,1,1");
+    expect_one_line(reference + Arguments{"0,0,0,1,1,1,180"}, "180 degrees");
+}
+
+// ---- Ctrl-C
+// -----------------------------------------------------------------------------------------------------------
+
+TEST(Interrupt, TheReferenceWritesWhatItHas) {
+    const TemporaryFolder folder;
+    Process process({tarn_program(), "reference", cornell(), "--out", folder.file("a.exr"), "--json",
+                     folder.file("a.json"), "--size", "64x36", "--spp", "50000000"});
+    // Its progress shows that it listens.
+    ASSERT_TRUE(process.wait_until([&] { return !process.error_text().empty(); }, std::chrono::seconds(60)));
+    process.send(SIGINT);
+    const ProcessResult result = process.finish();
+    EXPECT_EQ(result.status, 0) << result.err;
+    int width = 0, height = 0;
+    EXPECT_EQ(read_exr_channels(folder.file("a.exr"), width, height).size(), 6u);
+    EXPECT_EQ(width, 64);
+    const nlohmann::json report = nlohmann::json::parse(read_text(folder.file("a.json")));
+    EXPECT_EQ(report["cancelled"], true);
+    EXPECT_GT(report["spp"], 0);
+    const auto files = std::filesystem::directory_iterator(folder.path());
+    EXPECT_EQ(std::distance(begin(files), end(files)), 2) << "something was left behind";
+}
+
+}  // namespace
+}  // namespace tarn::test
