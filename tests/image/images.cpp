@@ -2,6 +2,8 @@
 // would notice a dropped cosine and a shift by one pixel.
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <set>
 
 #include "image/image_cases.h"
@@ -49,7 +51,7 @@ TEST_P(Images, MatchTheirGoldens) {
         std::printf("%s: %s\n", name.c_str(), describe(difference, sequence.tolerance).c_str());
         EXPECT_TRUE(difference.passes(sequence.tolerance))
             << name << ": " << describe(difference, sequence.tolerance) << ", allowed are "
-            << 100.0 * sequence.tolerance.exceeding_fraction << " %; "
+            << fmt::format("{:.3g} %; ", 100.0 * sequence.tolerance.exceeding_fraction)
             << keep_difference(artefact_folder(), name, expected, actual);
         ++seen;
     });
