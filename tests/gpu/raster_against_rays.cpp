@@ -6,6 +6,7 @@
 
 #include "platform/context.h"
 #include "renderer/renderer.h"
+#include "shared/math/random.h"
 #include "support/test_scenes.h"
 
 namespace tarn::test {

@@ -80,7 +80,9 @@ void main() {
         c.pdf = 1.0f;
 #endif
 #ifdef TARN_PLANT_SHIFT_LIGHT
-        if (c.drawn.light < get_light_count()) c.drawn.light = (c.drawn.light + 1u) % get_light_count();
+        if (c.drawn.light < get_light_count()) {
+            c.drawn.light = (c.drawn.light + (get_light_count() + 1u) / 2u) % get_light_count();
+        }
 #endif
         IncidentLight incident = load_incident_light(c.drawn, p.position);
         float target = target_function(reflect_light(p, frame, view_local, incident));
