@@ -53,8 +53,7 @@ WorldOptions black_sky() {
     return options;
 }
 
-// ---- Intensities
-// ----------------------------------------------------------------------------------------------------
+// ---- Intensities --------------------------------------------------------------------------------
 
 // Light is linear in intensity: a power of two comes out of every product as it went in, so that a floor or
 // an epsilon anywhere on the way shows. 2^-27 is 7.5e-9, 2^27 is 1.3e8.
@@ -118,12 +117,13 @@ TEST_F(OddLights, ADimLightBesideABrightOneKeepsItsValue) {
         EXPECT_GT(bright_lit, 500);
         EXPECT_EQ(dim_wrong, 0);
         // One draw of two finds the dim light; by power it would take 1e16 draws.
-        if (mode == DirectMode::UNIFORM) EXPECT_GT(dim_lit, 500);
+        if (mode == DirectMode::UNIFORM) {
+            EXPECT_GT(dim_lit, 500);
+        }
     }
 }
 
-// ---- None, one, without area
-// ----------------------------------------------------------------------------------------
+// ---- None, one, without area --------------------------------------------------------------------
 
 TEST_F(OddLights, WithoutLightsAnEvenSkyLightsAConvexBody) {
     ToyScene toy;
@@ -196,8 +196,7 @@ TEST_F(OddLights, AnEmitterWithoutAreaAloneIsFinite) {
     for (const DirectMode mode : MODES) render.render(look_at_floor(render), mode, 4);
 }
 
-// ---- Where a light may be
-// ---------------------------------------------------------------------------------------------
+// ---- Where a light may be -----------------------------------------------------------------------
 
 // The middle pixel looks at the light itself: distance 0 there, grazing everywhere else.
 TEST_F(OddLights, APointLightOnASurfaceIsFinite) {

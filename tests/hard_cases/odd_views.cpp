@@ -81,8 +81,7 @@ TEST_F(OddViews, ACameraInTheFloorIsFinite) {
     }
 }
 
-// ---- Materials at the ends of their range, seen and lit at grazing angles
-// ---------------------------------------------
+// ---- Materials at the ends of their range, seen and lit at grazing angles -----------------------
 
 struct Finish {
     const char* name;

@@ -38,8 +38,7 @@ ToyRender load_moved(const char* name, const glm::dmat4& ws_from_old) {
     return ToyRender(std::move(scene), WIDTH_PX, HEIGHT_PX);
 }
 
-// ---- Scale
-// ----------------------------------------------------------------------------------------------------------
+// ---- Scale --------------------------------------------------------------------------------------
 
 class Scale : public HardScenes, public testing::WithParamInterface<double> {};
 
@@ -67,8 +66,7 @@ INSTANTIATE_TEST_SUITE_P(Scales, Scale, testing::Values(1e-3, 1e4), [](const aut
     return info.param < 1.0 ? "Thousandth" : "TenThousandfold";
 });
 
-// ---- A light over a plane, known in closed form
-// ---------------------------------------------------------------------
+// ---- A light over a plane, known in closed form -------------------------------------------------
 
 struct Placement {
     const char* name;
@@ -152,8 +150,7 @@ INSTANTIATE_TEST_SUITE_P(Placements, OverPlane,
                                          Placement{"Tiny", 1e-3, 0.0}, Placement{"Huge", 1e4, 0.0}),
                          [](const auto& info) { return info.param.name; });
 
-// ---- A closed box with the lights outside
-// ---------------------------------------------------------------------------
+// ---- A closed box with the lights outside -------------------------------------------------------
 
 // Corners of a box around the origin, 12 triangles that share 8 corners, fronts inwards.
 std::vector<glm::vec3> closed_box(const glm::vec3& half) {

@@ -61,8 +61,7 @@ TEST_P(Images, MatchTheirGoldens) {
 INSTANTIATE_TEST_SUITE_P(Golden, Images, testing::ValuesIn(image_sequences()),
                          [](const auto& info) { return info.param.name(); });
 
-// ---- Would the comparison notice?
-// -----------------------------------------------------------------------------------
+// ---- Would the comparison notice? ---------------------------------------------------------------
 
 class NegativeControls : public Images {};
 
@@ -102,8 +101,7 @@ INSTANTIATE_TEST_SUITE_P(Golden, NegativeControls,
                                          find_sequence("point_over_plane_main_ris")),
                          [](const auto& info) { return info.param.name(); });
 
-// ---- The comparison itself
-// ------------------------------------------------------------------------------------------
+// ---- The comparison itself ----------------------------------------------------------------------
 
 TEST(ImageComparison, BothTolerancesCount) {
     Image a(10, 10, 3);

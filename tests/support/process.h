@@ -72,7 +72,9 @@ class Process {
         _exit(127);
     }
     ~Process() {
-        if (id_ > 0) kill(id_, SIGKILL), waitpid(id_, nullptr, 0);
+        if (id_ <= 0) return;
+        kill(id_, SIGKILL);
+        waitpid(id_, nullptr, 0);
     }
     Process(const Process&) = delete;
     Process& operator=(const Process&) = delete;

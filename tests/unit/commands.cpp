@@ -22,15 +22,14 @@ Arguments operator+(Arguments first, const Arguments& second) {
     return first;
 }
 
-// GTest shows the last line that a failure needs.
+// The arguments on one line, for messages.
 std::string join(const Arguments& arguments) {
     std::string text;
     for (const std::string& argument : arguments) text += argument + " ";
     return text;
 }
 
-// ---- Help
-// -----------------------------------------------------------------------------------------------------------
+// ---- Help ---------------------------------------------------------------------------------------
 
 const Arguments SCENE_OPTIONS = {"SCENE",  "--size",    "--camera", "--environment",
                                  "--seed", "--threads", "--time",   "--scene"};
@@ -63,8 +62,7 @@ TEST(Help, NamesEveryOption) {
     expect_help({"view"}, SCENE_OPTIONS + RENDER_OPTIONS);
 }
 
-// ---- Wrong usage
-// ----------------------------------------------------------------------------------------------------
+// ---- Wrong usage --------------------------------------------------------------------------------
 
 TEST(WrongUsage, EndsWithStatus2AndSaysWhatIsWrong) {
     const TemporaryFolder folder;
@@ -112,8 +110,7 @@ TEST(WrongUsage, EndsWithStatus2AndSaysWhatIsWrong) {
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-// ---- A world that disappoints
-// -----------------------------------------------------------------------------------------
+// ---- A world that disappoints -------------------------------------------------------------------
 
 // Status 1, and one line on stderr that holds `word`.
 void expect_one_line(const Arguments& arguments, const std::string& word) {
@@ -166,16 +163,15 @@ TEST(Disappointment, AnUnknownCameraListsThoseThatExist) {
     const Arguments reference = {
         "reference", TARN_BUILD_DIR "/content/lantern_court.glb", "--out", folder.file("a.exr"), "--spp", "1",
         "--camera"};
-    for (const char* name : {"main", "arcade", "balcony", "closeup"}) {
-        expect_one_line(reference + Arguments{"nobody"}, std::string("'") + name + "'");
+    for (const char* name : {"'main'", "'arcade'", "'balcony'", "'closeup'"}) {
+        expect_one_line(reference + Arguments{"nobody"}, name);
     }
     expect_one_line(reference + Arguments{"4"}, "'4'");
     expect_one_line(reference + Arguments{"0,0,0,1,1,1"}, "0,0,0,1,1,1");
     expect_one_line(reference + Arguments{"0,0,0,1,1,1,180"}, "180 degrees");
 }
 
-// ---- Ctrl-C
-// -----------------------------------------------------------------------------------------------------------
+// ---- Ctrl-C -------------------------------------------------------------------------------------
 
 TEST(Interrupt, TheReferenceWritesWhatItHas) {
     const TemporaryFolder folder;
