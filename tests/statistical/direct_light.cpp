@@ -2,7 +2,9 @@
 // correction. And three classic mistakes, planted one at a time, are found by the same test.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <set>
 
 #include "core/tile_test.h"
 #include "platform/context.h"
@@ -10,6 +12,7 @@
 #include "renderer/renderer.h"
 #include "shared/math/random.h"
 #include "support/test_scenes.h"
+#include "world/scene_access.h"
 
 namespace tarn::test {
 namespace {
@@ -19,8 +22,8 @@ constexpr int WIDTH_PX = 96;
 constexpr int HEIGHT_PX = 54;
 constexpr int TILE_PX = 16;
 constexpr int SEEDS = 256;
-// Frames averaged into each seed's image. Glossy highlights and distant lanterns are rare bright events: over single
-// frames 256 seeds meet some of them too seldom for the test's correction for skewness.
+// Frames averaged into each seed's image. Glossy highlights and distant lanterns are rare bright events: over
+// single frames 256 seeds meet some of them too seldom for the test's correction for skewness.
 constexpr int FRAMES = 4;
 constexpr int SEEDS_TO_FIND_A_BUG = 32;
 constexpr double SIGNIFICANCE = 0.01;
@@ -61,31 +64,74 @@ class DirectLight : public testing::TestWithParam<const char*> {
         const ReferenceResult reference = render_reference(scene_->world, *scene_->tracer, settings);
         EXPECT_EQ(reference.non_finite, 0u);
         reference_ = {reference.radiance, reference.variance};
-        find_silhouettes();
-        clear_silhouettes(reference_.mean);
-        clear_silhouettes(reference_.variance);
+        left_out_ = find_silhouettes();
+        // The one scene with seldom drawn lights at arm's length of what they light.
+        if (GetParam() == std::string("lantern_court")) left_out_.merge(find_rare_events());
+        clear_left_out(reference_.mean);
+        clear_left_out(reference_.variance);
     }
 
-    static void find_silhouettes() {
+    // Pixels where the two differ for any of some frames: where surfaces of partial coverage meet a
+    // silhouette, it takes several draws to see it.
+    static std::set<std::uint32_t> find_silhouettes() {
         Renderer renderer(scene_->world, *scene_->tracer, WIDTH_PX, HEIGHT_PX);
         FrameInput input;
         input.camera = camera_;
-        const auto seen = renderer.render(input).gbuffer.seen.download<glm::uvec2>();
-        silhouettes_.clear();
-        for (std::uint32_t pixel = 0; pixel < seen.size(); ++pixel) {
-            const glm::vec2 centre(float(pixel % WIDTH_PX) + 0.5f, float(pixel / WIDTH_PX) + 0.5f);
-            const PixelRay view = camera_ray(camera_, centre, glm::vec2(WIDTH_PX, HEIGHT_PX));
-            const RayRecord ray{view.origin, RAY_INFINITY, view.direction, pixel};
-            const auto hit = scene_->tracer->trace_closest(ray, {0, 0, RAY_CAMERA}, BackFaces::PASS);
-            const glm::uvec2 met = hit ? glm::uvec2(hit->instance, hit->primitive) : glm::uvec2(INVALID_INDEX);
-            if (seen[pixel].x != met.x || (hit && seen[pixel].y != met.y)) silhouettes_.push_back(pixel);
+        std::set<std::uint32_t> found;
+        for (input.frame = 0; input.frame < 32; ++input.frame) {
+            const auto seen = renderer.render(input).gbuffer.seen.download<glm::uvec2>();
+            for (std::uint32_t pixel = 0; pixel < seen.size(); ++pixel) {
+                if (seen[pixel] != trace_seen(pixel, input.frame)) found.insert(pixel);
+            }
         }
-        std::printf("%s: %zu of %zu pixels on silhouettes left out\n", GetParam(), silhouettes_.size(), seen.size());
-        EXPECT_LE(silhouettes_.size(), seen.size() / 200);
+        std::printf("%s: %zu of %d pixels are on silhouettes\n", GetParam(), found.size(),
+                    WIDTH_PX * HEIGHT_PX);
+        EXPECT_LE(found.size(), std::size_t(WIDTH_PX * HEIGHT_PX / 200));
+        return found;
     }
 
-    static void clear_silhouettes(Image& image) {
-        for (const std::uint32_t pixel : silhouettes_) {
+    // Pixels within one radius of the lit side of a triangle that is drawn less than 64 times a pixel in
+    // all.
+    // Nearer than that the square of the distance varies strongly over the triangle.
+    static std::set<std::uint32_t> find_rare_events() {
+        Renderer renderer(scene_->world, *scene_->tracer, WIDTH_PX, HEIGHT_PX);
+        FrameInput input;
+        input.camera = camera_;
+        const auto positions = renderer.render(input).gbuffer.position.download<glm::vec4>();
+        const double draws = double(input.settings.candidates) * FRAMES * SEEDS;
+        SceneAccess access(scene_->world);
+        std::set<std::uint32_t> found;
+        for (std::uint32_t i = scene_->world.lights.punctual_count; i < scene_->world.lights.count; ++i) {
+            if (scene_->world.lights.pmf[i] * draws >= 16.0) continue;
+            const Light light = access.load_light(i);
+            const glm::vec3 centre = triangle_point(light, glm::vec2(1.0f / 3.0f));
+            const float radius = std::max(glm::length(light.edge1), glm::length(light.edge2));
+            const float side = (light.flags & LIGHT_MIRRORED) != 0u ? -1.0f : 1.0f;
+            const glm::vec3 normal = side * glm::normalize(glm::cross(light.edge1, light.edge2));
+            for (std::uint32_t pixel = 0; pixel < positions.size(); ++pixel) {
+                const glm::vec3 from_light = glm::vec3(positions[pixel]) - centre;
+                const bool is_lit =
+                    positions[pixel].w >= 0.0f && glm::dot(from_light, normal) > 0.01f * radius;
+                if (is_lit && glm::length(from_light) < radius) found.insert(pixel);
+            }
+        }
+        std::printf("%s: %zu pixels are too close to a light that is seldom drawn\n", GetParam(),
+                    found.size());
+        EXPECT_LE(found.size(), std::size_t(WIDTH_PX * HEIGHT_PX / 50));
+        return found;
+    }
+
+    // Instance and primitive that the camera ray of a pixel meets, as the rasterizer would write them.
+    static glm::uvec2 trace_seen(std::uint32_t pixel, std::uint32_t frame) {
+        const glm::vec2 centre(float(pixel % WIDTH_PX) + 0.5f, float(pixel / WIDTH_PX) + 0.5f);
+        const PixelRay view = camera_ray(camera_, centre, glm::vec2(WIDTH_PX, HEIGHT_PX));
+        const RayRecord ray{view.origin, RAY_INFINITY, view.direction, pixel};
+        const auto hit = scene_->tracer->trace_closest(ray, {frame, 0, RAY_CAMERA}, BackFaces::PASS);
+        return hit ? glm::uvec2(hit->instance, hit->primitive) : glm::uvec2(INVALID_INDEX);
+    }
+
+    static void clear_left_out(Image& image) {
+        for (const std::uint32_t pixel : left_out_) {
             for (int channel = 0; channel < 3; ++channel) image.values[3 * pixel + channel] = 0.0f;
         }
     }
@@ -95,7 +141,8 @@ class DirectLight : public testing::TestWithParam<const char*> {
         for (int frame = 0; frame < FRAMES; ++frame) {
             input.frame = std::uint32_t(frame);
             const Image image = renderer.read_radiance(renderer.render(input).radiance);
-            for (std::size_t i = 0; i < mean.values.size(); ++i) mean.values[i] += image.values[i] / float(FRAMES);
+            for (std::size_t i = 0; i < mean.values.size(); ++i)
+                mean.values[i] += image.values[i] / float(FRAMES);
         }
         return mean;
     }
@@ -109,7 +156,7 @@ class DirectLight : public testing::TestWithParam<const char*> {
         for (int seed = 0; seed < seeds; ++seed) {
             input.seed = std::uint32_t(seed) + 1000u;
             Image image = render_mean(renderer, input);
-            clear_silhouettes(image);
+            clear_left_out(image);
             samples.add(image);
         }
         for (const auto& [name, value] : renderer.read_counters()) EXPECT_EQ(value, 0u) << name;
@@ -125,7 +172,7 @@ class DirectLight : public testing::TestWithParam<const char*> {
     static inline std::unique_ptr<TestScene> scene_;
     static inline CameraRecord camera_{};
     static inline TileReference reference_;
-    static inline std::vector<std::uint32_t> silhouettes_;
+    static inline std::set<std::uint32_t> left_out_;
 };
 
 TEST_P(DirectLight, UniformHasTheReferencesMean) {
@@ -138,8 +185,10 @@ TEST_P(DirectLight, RisHasTheReferencesMean) {
 
 TEST_P(DirectLight, PlantedBugsAreFound) {
     for (const char* bug : {"TARN_PLANT_DROP_PDF", "TARN_PLANT_DROP_COSINE", "TARN_PLANT_SHIFT_LIGHT"}) {
-        // The two lights of the Cornell box are the halves of one quad: to take one for the other changes nothing.
-        const bool harmless = bug == std::string("TARN_PLANT_SHIFT_LIGHT") && GetParam() == std::string("cornell");
+        // The two lights of the Cornell box are the halves of one quad: to take one for the other changes
+        // nothing.
+        const bool harmless =
+            bug == std::string("TARN_PLANT_SHIFT_LIGHT") && GetParam() == std::string("cornell");
         if (harmless) continue;
         EXPECT_FALSE(run(DirectMode::RIS, SEEDS_TO_FIND_A_BUG, {bug}).passes) << bug;
     }
