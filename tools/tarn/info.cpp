@@ -236,7 +236,7 @@ void run_info(const InfoOptions& options) {
 void add_info_command(CLI::App& app) {
     const auto options = std::make_shared<InfoOptions>();
     CLI::App* command =
-        app.add_subcommand("info", "Says what a glTF scene holds and which extensions are honoured");
+        app.add_subcommand("info", "List what a glTF scene holds and which extensions are honoured");
     command->add_option("scene", options->scene, "A .gltf or .glb file")->required()->type_name("SCENE");
     command->add_option("--json", options->json, "Write everything as JSON to this file")->type_name("FILE");
     command

@@ -11,6 +11,8 @@ namespace {
 void add_view_options(CLI::App& command, ViewOptions& options) {
     command.get_option("SCENE")->required(false)->default_str("lantern_court");
     command.get_option("--size")->description("Size of the window, px")->default_str("1280x720");
+    command.get_option("--context")->description("Where GL comes from: a window comes from glfw alone");
+    command.get_option("--exposure")->description("Exposure of the picture, EV (default: automatic)");
     command.remove_option(command.get_option("--json"));
     command
         .add_option("--resolution", options.resolution_percent,
