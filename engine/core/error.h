@@ -10,7 +10,8 @@
 namespace tarn {
 
 // The world disappoints: a file, a scene, a shader, a driver. The message is one line that names the thing,
-// the value and the limit: Error("light_count is {}, the table holds {}", count, limit). Caught once, in main.
+// the value and the limit: Error("light_count is {}, the table holds {}", count, limit). Caught once, in
+// main.
 class Error : public std::runtime_error {
   public:
     template <class... Args>
@@ -18,14 +19,16 @@ class Error : public std::runtime_error {
         : std::runtime_error(fmt::format(format, std::forward<Args>(args)...)) {}
 };
 
-[[noreturn]] void fail_assertion(const char* condition, const char* file, int line, const std::string& message);
+[[noreturn]] void fail_assertion(const char* condition, const char* file, int line,
+                                 const std::string& message);
 
 }  // namespace tarn
 
-// Stops the program when `condition` is false. On in Debug and in the sanitizer build; compiles to nothing else.
+// Stops the program when `condition` is false. On in Debug and in the sanitizer build; compiles to nothing
+// else.
 #ifdef NDEBUG
 #define TARN_ASSERT(condition, ...) ((void)sizeof(!(condition)))
 #else
-#define TARN_ASSERT(condition, ...)                                                                       \
+#define TARN_ASSERT(condition, ...) \
     ((condition) ? (void)0 : ::tarn::fail_assertion(#condition, __FILE__, __LINE__, fmt::format(__VA_ARGS__)))
 #endif

@@ -5,8 +5,8 @@
 
 namespace tarn {
 
-// True once the user pressed Ctrl-C (or the process got SIGTERM). The first call starts listening; a second Ctrl-C
-// ends the program at once.
+// True once the user pressed Ctrl-C (or the process got SIGTERM). The first call starts listening; a second
+// Ctrl-C ends the program at once.
 const std::atomic<bool>& interrupt_flag();
 
 }  // namespace tarn

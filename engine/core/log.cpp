@@ -30,7 +30,9 @@ void warn_once(const std::string& message) {
     std::fprintf(stderr, "tarn: warning: %s\n", message.c_str());
 }
 
-void set_quiet(bool value) { quiet = value; }
+void set_quiet(bool value) {
+    quiet = value;
+}
 
 Progress::Progress(std::string label, std::uint64_t total)
     : label_(std::move(label)),

@@ -11,9 +11,9 @@ constexpr int GROUP_SIZE_PX = 8;
 
 // All the ways in which later passes look at what a compute shader wrote.
 constexpr GLbitfield AFTER_DISPATCH = GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
-                                      GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
-                                      GL_TEXTURE_UPDATE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
-                                      GL_FRAMEBUFFER_BARRIER_BIT;
+                                      GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT |
+                                      GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT |
+                                      GL_BUFFER_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT;
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -21,7 +21,8 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
-// ---- PassRecorder ---------------------------------------------------------------------------------------------------
+// ---- PassRecorder
+// ---------------------------------------------------------------------------------------------------
 
 PassRecorder::PassRecorder(FrameRecorder& frame, std::string name)
     : frame_(frame), name_(std::move(name)), group_(name_) {}
@@ -62,7 +63,8 @@ PassRecorder& PassRecorder::count(unsigned binding, const Buffer& buffer) {
     return *this;
 }
 
-PassRecorder& PassRecorder::write_target(const Framebuffer& target, std::initializer_list<const Texture2D*> colours) {
+PassRecorder& PassRecorder::write_target(const Framebuffer& target,
+                                         std::initializer_list<const Texture2D*> colours) {
     target.bind();
     for (const Texture2D* colour : colours) frame_.written_.emplace(true, colour->id());
     return *this;
@@ -89,10 +91,12 @@ void PassRecorder::run_on_cpu(const std::function<void()>& work) {
     frame_.timed_.push_back({name_, 0, milliseconds_since(start)});
 }
 
-// ---- FrameRecorder --------------------------------------------------------------------------------------------------
+// ---- FrameRecorder
+// --------------------------------------------------------------------------------------------------
 
 FrameRecorder::FrameRecorder()
-    : wait_for_each_pass_(find_driver_quirks(query_device_info()).timestamps_at_submission), start_(std::chrono::steady_clock::now()) {}
+    : wait_for_each_pass_(find_driver_quirks(query_device_info()).timestamps_at_submission),
+      start_(std::chrono::steady_clock::now()) {}
 
 void FrameRecorder::begin() {
     written_.clear();

@@ -1,7 +1,8 @@
-// Records one frame, pass by pass: binds, labels, times, issues the barriers, and checks that what a pass reads was
-// written earlier in this frame.
+// Records one frame, pass by pass: binds, labels, times, issues the barriers, and checks that what a pass
+// reads was written earlier in this frame.
 //
-//     frame.pass("direct/shade").read(14, reservoirs).write_image(0, radiance).dispatch(program, width, height);
+//     frame.pass("direct/shade").read(14, reservoirs).write_image(0, radiance).dispatch(program, width,
+//     height);
 #pragma once
 
 #include <chrono>
@@ -52,7 +53,8 @@ class PassRecorder {
     void dispatch(const Program& program, int width_px, int height_px);
     // Runs `draws`, which issues draw calls with `program` in use.
     void draw(const Program& program, const std::function<void()>& draws);
-    // Runs work of the CPU over buffers that it shares with GL: waits for the device before, and is timed alone.
+    // Runs work of the CPU over buffers that it shares with GL: waits for the device before, and is timed
+    // alone.
     void run_on_cpu(const std::function<void()>& work);
 
   private:
@@ -81,7 +83,8 @@ class FrameRecorder {
         double wall_ms = -1.0;        // >= 0: by the wall clock
     };
 
-    void check_written(unsigned id, bool is_texture, const std::string& pass, const std::string& resource) const;
+    void check_written(unsigned id, bool is_texture, const std::string& pass,
+                       const std::string& resource) const;
     // Issues the commands of pass `name` and times them on the device.
     void time_device_work(const std::string& name, const std::function<void()>& commands);
     std::size_t stamp();

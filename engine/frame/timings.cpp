@@ -25,7 +25,9 @@ void TimingLog::add(const FrameTimings& timings) {
     }
 }
 
-double TimingLog::frame_quantile_ms(double q) const { return quantile(frame_ms_, q); }
+double TimingLog::frame_quantile_ms(double q) const {
+    return quantile(frame_ms_, q);
+}
 
 std::vector<PassTiming> TimingLog::pass_medians() const {
     std::vector<PassTiming> medians;

@@ -6,14 +6,14 @@
 namespace tarn {
 
 struct DriverQuirks {
-    // Mesa llvmpipe, 22.3.6 (November 2026): a timestamp query answers when the command is queued, not when the work
-    // before it is done, so that one pass shows the time of all. Passes are then timed by the wall clock between two
-    // fences, at 20-80 us a wait.
+    // Mesa llvmpipe, 22.3.6 (November 2026): a timestamp query answers when the command is queued, not when
+    // the work before it is done, so that one pass shows the time of all. Passes are then timed by the wall
+    // clock between two fences, at 20-80 us a wait.
     bool timestamps_at_submission = false;
 };
 
-// The quirks of a device. Environment variable TARN_QUIRKS overrides: a list of NAME or -NAME, separated by commas.
-// Error for a name that is none.
+// The quirks of a device. Environment variable TARN_QUIRKS overrides: a list of NAME or -NAME, separated by
+// commas. Error for a name that is none.
 DriverQuirks find_driver_quirks(const DeviceInfo& device);
 
 }  // namespace tarn

@@ -102,7 +102,8 @@ void GBufferPass::collect_draws(const World& world, const CameraRecord& camera) 
         const auto bucket = std::find_if(buckets_.begin(), buckets_.end(), [&](const Bucket& b) {
             return b.culling == culling && b.coverage == coverage;
         });
-        bucket->commands.push_back({3 * range.triangle_count, 1, 3 * (mesh.first_triangle + range.first_triangle),
+        bucket->commands.push_back({3 * range.triangle_count, 1,
+                                    3 * (mesh.first_triangle + range.first_triangle),
                                     GLint(mesh.first_vertex), GLuint(ids.size())});
         ids.emplace_back(range.instance, range.first_triangle);
         statistics_.triangles_drawn += range.triangle_count;
@@ -129,7 +130,8 @@ void GBufferPass::issue_draws(const World&, bool coverage) const {
     for (const Bucket& bucket : buckets_) {
         if (bucket.coverage == coverage && !bucket.commands.empty()) {
             set_culling(bucket.culling);
-            glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset_bytes),
+            glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
+                                        reinterpret_cast<const void*>(offset_bytes),
                                         GLsizei(bucket.commands.size()), sizeof(DrawCommand));
         }
         offset_bytes += bucket.commands.size() * sizeof(DrawCommand);

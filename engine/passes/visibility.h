@@ -1,4 +1,5 @@
-// Visibility: shadow rays that a shader wrote, answered by the ray tracer's worker threads in the same memory.
+// Visibility: shadow rays that a shader wrote, answered by the ray tracer's worker threads in the same
+// memory.
 #pragma once
 
 #include "frame/frame_recorder.h"
@@ -17,7 +18,8 @@ class VisibilityPass {
     explicit VisibilityPass(std::size_t ray_count);
 
     // Traces `rays` (RAY_ROWS rows a ray, SHARED). The only place where GL memory meets the ray tracer.
-    Visibility record(FrameRecorder& frame, const RayTracer& tracer, const Buffer& rays, const CoverageKey& key);
+    Visibility record(FrameRecorder& frame, const RayTracer& tracer, const Buffer& rays,
+                      const CoverageKey& key);
 
     // Rays of the last batch.
     const RayBatchResult& result() const { return result_; }

@@ -18,6 +18,17 @@ std::size_t count_slot(const World& world, std::uint32_t slot) {
     return count;
 }
 
+// Materials with a specular layer: a metal, or a dielectric whose F90 is not 0.
+std::size_t count_specular(const World& world) {
+    std::size_t count = 0;
+    for (std::size_t m = 0; m < world.material_flags.size(); ++m) {
+        const glm::uvec4* rows = &world.material_rows[m * MATERIAL_ROWS];
+        const MaterialRecord record = unpack_material(rows[0], rows[1], rows[2], rows[3]);
+        if (record.metallic > 0.0f || record.dielectric_f90 > 0.0f) ++count;
+    }
+    return count;
+}
+
 std::size_t count_textured_lights(const WorldLights& lights) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < lights.count; ++i) {
@@ -43,6 +54,8 @@ FramePlan make_plan(const World& world) {
     for (const std::uint32_t slot : {SLOT_BASE_COLOR, SLOT_METALLIC_ROUGHNESS, SLOT_NORMAL, SLOT_EMISSION}) {
         textures += count_slot(world, slot);
     }
+    if (count_specular(world) == 0)
+        plan.entries.push_back({"TARN_LAMBERT_ONLY", "no material has a specular layer"});
     const WorldLights& lights = world.lights;
     add("TARN_TEXTURES", textures, "texture slots in use");
     add("TARN_NORMAL_MAPS", count_slot(world, SLOT_NORMAL), "materials with a normal map");

@@ -18,8 +18,8 @@ double scene_diameter(const World& world) {
     return world.bounds.empty() ? 1.0 : std::max(1e-6, glm::length(world.bounds.extent()));
 }
 
-// Near plane of a perspective camera or depth range of an orthographic one, metres. Depth is reversed and floating,
-// so a near plane at 1e-5 of the scene costs no precision.
+// Near plane of a perspective camera or depth range of an orthographic one, metres. Depth is reversed and
+// floating, so a near plane at 1e-5 of the scene costs no precision.
 float depth_parameter(const World& world, const CameraRecord& camera) {
     const double diameter = scene_diameter(world);
     if (!camera.orthographic) return float(1e-5 * diameter);
@@ -47,7 +47,9 @@ Renderer::Renderer(const World& world, const RayTracer& tracer, int width_px, in
     counters_.clear();
 }
 
-void Renderer::update() { gpu_scene_.update(world_); }
+void Renderer::update() {
+    gpu_scene_.update(world_);
+}
 
 void Renderer::upload_frame_block(const FrameInput& input) {
     const CameraRecord& camera = input.camera;
@@ -74,7 +76,8 @@ FrameOutput Renderer::render(const FrameInput& input) {
     const Candidates candidates =
         direct_candidates_.record(frame_, gbuffer, input.settings.direct, counters_, defines_);
     const Visibility visible = visibility_.record(frame_, tracer_, candidates.rays, shadow_key);
-    const Texture2D& radiance = direct_shade_.record(frame_, gbuffer, candidates, visible, counters_, defines_);
+    const Texture2D& radiance =
+        direct_shade_.record(frame_, gbuffer, candidates, visible, counters_, defines_);
 
     rejected_rays_ += visibility_.result().rejected;
     return {radiance, gbuffer, frame_.end(), visibility_.result(), gbuffer_.statistics()};

@@ -38,8 +38,8 @@ struct FrameOutput {
 // Needs a current GL context. Same world, camera, frame, seed and settings give the same bits.
 class Renderer {
   public:
-    // Throws Error when the world does not fit the driver's limits. `world` and `tracer` must outlive the renderer.
-    // `extra_defines` reach every shader: tests plant mistakes with them (TARN_PLANT_*).
+    // Throws Error when the world does not fit the driver's limits. `world` and `tracer` must outlive the
+    // renderer. `extra_defines` reach every shader: tests plant mistakes with them (TARN_PLANT_*).
     Renderer(const World& world, const RayTracer& tracer, int width_px, int height_px,
              std::vector<std::string> extra_defines = {});
 

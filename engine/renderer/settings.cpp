@@ -38,11 +38,20 @@ std::string Setting::format(const RenderSettings& settings) const {
 
 const std::vector<Setting>& setting_table() {
     static const std::vector<Setting> table = {
-        {"direct", "", "How direct light chooses its sample: one random light, or RIS over many candidates", 0, 1,
+        {"direct",
+         "",
+         "How direct light chooses its sample: one random light, or RIS over many candidates",
+         0,
+         1,
          {"uniform", "ris"},
          [](const RenderSettings& s) { return double(s.direct); },
          [](RenderSettings& s, double v) { s.direct = DirectMode(int(v)); }},
-        {"candidates", "", "Light candidates a pixel that RIS chooses from", 1, 1024, {},
+        {"candidates",
+         "",
+         "Light candidates a pixel that RIS chooses from",
+         1,
+         1024,
+         {},
          [](const RenderSettings& s) { return double(s.candidates); },
          [](RenderSettings& s, double v) { s.candidates = int(v); }},
     };

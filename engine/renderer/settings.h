@@ -1,4 +1,5 @@
-// Every tunable of the renderer, declared once: the row feeds the command line, the panel and the JSON report.
+// Every tunable of the renderer, declared once: the row feeds the command line, the panel and the JSON
+// report.
 #pragma once
 
 #include <functional>

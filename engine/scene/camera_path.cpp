@@ -13,7 +13,8 @@ namespace {
 using nlohmann::json;
 
 double read_number(const json& object, const char* key, const std::string& where) {
-    if (!object.contains(key) || !object[key].is_number()) throw Error("{}: '{}' is not a number", where, key);
+    if (!object.contains(key) || !object[key].is_number())
+        throw Error("{}: '{}' is not a number", where, key);
     const double value = object[key].get<double>();
     if (!std::isfinite(value)) throw Error("{}: '{}' is not finite", where, key);
     return value;
@@ -44,7 +45,8 @@ json read_json(const std::filesystem::path& file) {
     std::ifstream stream(file);
     if (!stream) throw Error("{}: cannot be opened", file.string());
     json document = json::parse(stream, nullptr, false);
-    if (document.is_discarded() || !document.is_object()) throw Error("{}: is not a JSON object", file.string());
+    if (document.is_discarded() || !document.is_object())
+        throw Error("{}: is not a JSON object", file.string());
     return document;
 }
 
@@ -74,7 +76,8 @@ CameraPath load_camera_path(const std::filesystem::path& file) {
     path.name = file.stem().string();
     if (document.contains("scene") && document["scene"].is_string()) path.scene = document["scene"];
     const json keys = document.value("keys", json());
-    if (!keys.is_array() || keys.empty()) throw Error("{}: 'keys' is not a list of camera keys", file.string());
+    if (!keys.is_array() || keys.empty())
+        throw Error("{}: 'keys' is not a list of camera keys", file.string());
     for (std::size_t i = 0; i < keys.size(); ++i) {
         const std::string where = fmt::format("{}: key {}", file.string(), i);
         path.keys.push_back(read_key(keys[i], where));

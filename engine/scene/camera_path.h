@@ -22,11 +22,12 @@ struct CameraPath {
     std::vector<CameraKey> keys;  // at least one, times strictly increasing
 };
 
-// Reads a path file (JSON; content/README.md describes it). Throws Error that names the file and what is wrong.
+// Reads a path file (JSON; content/README.md describes it). Throws Error that names the file and what is
+// wrong.
 CameraPath load_camera_path(const std::filesystem::path& file);
 
-// The camera at `time_s`, clamped to the path: a Catmull-Rom curve through the keys, with tangents that respect
-// uneven key times.
+// The camera at `time_s`, clamped to the path: a Catmull-Rom curve through the keys, with tangents that
+// respect uneven key times.
 CameraKey evaluate_camera_path(const CameraPath& path, double time_s);
 
 }  // namespace tarn

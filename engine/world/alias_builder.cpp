@@ -20,8 +20,9 @@ std::vector<double> normalized(std::span<const double> weights) {
     return result;
 }
 
-// Random numbers have 24 bits, so a threshold between two of their values would be drawn as the next one. It is rounded
-// up to the grid (a dim light keeps a chance), and the probabilities are those of the table as it is drawn from.
+// Random numbers have 24 bits, so a threshold between two of their values would be drawn as the next one. It
+// is rounded up to the grid (a dim light keeps a chance), and the probabilities are those of the table as it
+// is drawn from.
 AliasTable pack_table(std::vector<double> threshold, const std::vector<std::uint32_t>& alias,
                       const std::vector<double>& weights) {
     constexpr double GRID = 16777216.0;

@@ -12,7 +12,8 @@ struct AliasTable {
     std::vector<float> pmf;        // weight / sum
 };
 
-// `weights` >= 0, any scale. Weights that are negative or not finite count as 0. Where all are 0 the table is uniform.
+// `weights` >= 0, any scale. Weights that are negative or not finite count as 0. Where all are 0 the table is
+// uniform.
 AliasTable build_alias_table(std::span<const double> weights);
 
 }  // namespace tarn

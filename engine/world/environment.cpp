@@ -31,8 +31,9 @@ double mean_luminance(const Image& image, int column, int row) {
 
 WorldEnvironment make_environment(const Image& radiance) {
     if (radiance.channels != 3 || radiance.width < 1 || radiance.height < 1) {
-        throw Error("the environment has {} channels and {} x {} pixels, it needs 3 channels and at least one pixel",
-                    radiance.channels, radiance.width, radiance.height);
+        throw Error(
+            "the environment has {} channels and {} x {} pixels, it needs 3 channels and at least one pixel",
+            radiance.channels, radiance.width, radiance.height);
     }
     for (const float value : radiance.values) {
         if (!std::isfinite(value) || value < 0.0f) {
@@ -47,7 +48,8 @@ WorldEnvironment make_environment(const Image& radiance) {
     for (int y = 0; y < radiance.height; ++y) {
         const double solid_angle =
             environment_texel_solid_angle(std::uint32_t(y), environment.width, environment.height);
-        for (int x = 0; x < radiance.width; ++x) weights.push_back(mean_luminance(radiance, x, y) * solid_angle);
+        for (int x = 0; x < radiance.width; ++x)
+            weights.push_back(mean_luminance(radiance, x, y) * solid_angle);
     }
     AliasTable table = build_alias_table(weights);
     environment.alias_rows = std::move(table.rows);

@@ -24,8 +24,8 @@ void write_vertex(std::span<glm::uvec4> rows, const Mesh& mesh, std::size_t v, c
 }
 
 std::span<glm::uvec4> vertex_rows_of(World& world, const WorldMesh& mesh) {
-    return std::span(world.vertex_rows).subspan(std::size_t(mesh.first_vertex) * VERTEX_ROWS,
-                                                std::size_t(mesh.vertex_count) * VERTEX_ROWS);
+    return std::span(world.vertex_rows)
+        .subspan(std::size_t(mesh.first_vertex) * VERTEX_ROWS, std::size_t(mesh.vertex_count) * VERTEX_ROWS);
 }
 
 void find_cluster_bounds(const World& world, WorldMesh& mesh) {
@@ -80,8 +80,8 @@ void write_instance_rows(World& world, std::uint32_t index, std::uint32_t materi
     for (std::uint32_t row = 0; row < 3; ++row) {
         world.instance_rows[index * INSTANCE_ROWS + row] = pack_row4(rows[int(row)]);
     }
-    world.instance_rows[index * INSTANCE_ROWS + 3] =
-        glm::uvec4(mesh.first_triangle, mesh.first_vertex, material, instance.mirrored ? INSTANCE_MIRRORED : 0u);
+    world.instance_rows[index * INSTANCE_ROWS + 3] = glm::uvec4(
+        mesh.first_triangle, mesh.first_vertex, material, instance.mirrored ? INSTANCE_MIRRORED : 0u);
 }
 
 void deform_instance(World& world, const Scene& scene, const WorldInstance& instance, const Pose& pose) {

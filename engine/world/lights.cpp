@@ -1,6 +1,7 @@
 // The table of lights: punctual ones first, then every emissive triangle, and the alias table by power.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "shared/math/light.h"
 #include "world/alias_builder.h"
@@ -14,6 +15,7 @@ namespace {
 struct LightList {
     std::vector<glm::uvec4> rows;
     std::vector<double> powers;
+    std::vector<std::pair<std::uint32_t, EmissionMap>> maps;  // of the lights that have one
 
     std::uint32_t add(const Light& light, double power) {
         const std::size_t first = rows.size();
@@ -22,9 +24,20 @@ struct LightList {
         powers.push_back(power);
         return std::uint32_t(powers.size() - 1);
     }
+
+    // Appends the emission maps behind all lights and tells each light where its own begins.
+    void append_maps() {
+        for (const auto& [light, map] : maps) {
+            const std::size_t first = rows.size();
+            rows.resize(first + EMISSION_MAP_ROWS);
+            pack_emission_map(map, rows[first], rows[first + 1], rows[first + 2]);
+            rows[light * LIGHT_ROWS + 3].w = std::uint32_t(first);
+        }
+    }
 };
 
-Light make_punctual(const PunctualLight& source, const glm::dmat4& world_from_node, const glm::dvec3& origin_ws) {
+Light make_punctual(const PunctualLight& source, const glm::dmat4& world_from_node,
+                    const glm::dvec3& origin_ws) {
     Light light{};
     light.flags = std::uint32_t(source.kind);
     light.position = glm::vec3(glm::dvec3(world_from_node[3]) - origin_ws);
@@ -47,11 +60,13 @@ Light make_punctual(const PunctualLight& source, const glm::dmat4& world_from_no
 double punctual_power(const PunctualLight& light, double scene_radius) {
     const double intensity = luminance(light.intensity);
     switch (light.kind) {
-        case LightKind::POINT: return 4.0 * double(PI) * intensity;
+        case LightKind::POINT:
+            return 4.0 * double(PI) * intensity;
         case LightKind::SPOT:
             return double(PI) * intensity *
                    (2.0 - std::cos(light.inner_cone_rad) - std::cos(light.outer_cone_rad));
-        case LightKind::DIRECTIONAL: return double(PI) * scene_radius * scene_radius * intensity;
+        case LightKind::DIRECTIONAL:
+            return double(PI) * scene_radius * scene_radius * intensity;
     }
     return 0.0;
 }
@@ -66,20 +81,30 @@ void add_punctual_lights(LightList& list, const World& world, const Scene& scene
     }
 }
 
-// Mean luminance of the emission map over a triangle, by a fixed grid of points. Never 0 by accident: a texture that
-// is dark at all grid points keeps a small share, so that its bright spots stay reachable.
-double mean_map_luminance(SceneAccess& access, const Light& light, double untextured) {
+EmissionMap make_emission_map(SceneAccess& access, const InstanceRecord& instance, std::uint32_t primitive) {
+    const SlotRecord slot = access.load_slot(instance.material, SLOT_EMISSION);
+    const glm::uvec3 vertices = access.load_vertex_indices(instance, primitive);
+    const auto uv_at = [&](std::uint32_t vertex) {
+        const glm::vec2 second = access.unpack_uv1(access.fetch_vertex_row(vertex * VERTEX_ROWS + 3));
+        return access.slot_uv(slot, access.load_uv0(vertex), second);
+    };
+    return {uv_at(vertices.x), uv_at(vertices.y), uv_at(vertices.z), slot.first_texel, slot.size, slot.flags};
+}
+
+// Mean luminance of a textured triangle, by a fixed grid of points. Never 0 by accident: a texture that is
+// dark at all grid points keeps a small share, so that its bright spots stay reachable.
+double mean_luminance(SceneAccess& access, const Light& light, const EmissionMap& map) {
     constexpr int STEPS = 4;
     double sum = 0.0;
     int count = 0;
     for (int i = 0; i < STEPS; ++i) {
         for (int j = 0; i + j < STEPS; ++j) {
             const glm::vec2 barycentrics((float(i) + 1.0f / 3.0f) / STEPS, (float(j) + 1.0f / 3.0f) / STEPS);
-            sum += luminance(access.load_triangle_radiance(light, barycentrics));
+            sum += luminance(light.radiance * access.sample_emission_map(map, barycentrics));
             ++count;
         }
     }
-    return std::max(sum / count, 0.01 * untextured);
+    return std::max(sum / count, 0.01 * luminance(light.radiance));
 }
 
 Light make_triangle(const World& world, SceneAccess& access, std::uint32_t instance, std::uint32_t primitive,
@@ -92,7 +117,8 @@ Light make_triangle(const World& world, SceneAccess& access, std::uint32_t insta
     Light light{};
     light.flags = LIGHT_TRIANGLE;
     if ((material.flags & MATERIAL_DOUBLE_SIDED) != 0u) light.flags |= LIGHT_DOUBLE_SIDED;
-    // The lit side of a mirrored triangle is the other one. Its vertices keep their order, for the barycentrics' sake.
+    // The lit side of a mirrored triangle is the other one. Its vertices keep their order, for the
+    // barycentrics' sake.
     if (world.instances[instance].mirrored) light.flags |= LIGHT_MIRRORED;
     if (textured) light.flags |= LIGHT_TEXTURED;
     light.position = p0;
@@ -120,8 +146,12 @@ void add_triangle_lights(LightList& list, World& world) {
             const double area = triangle_area(light);
             std::uint32_t index = INVALID_INDEX;
             if (area > 0.0 && std::isfinite(area)) {
-                const double plain = luminance(light.radiance);
-                const double mean = textured ? mean_map_luminance(access, light, plain) : plain;
+                double mean = luminance(light.radiance);
+                if (textured) {
+                    const EmissionMap map = make_emission_map(access, access.load_instance(i), primitive);
+                    mean = mean_luminance(access, light, map);
+                    list.maps.emplace_back(std::uint32_t(list.powers.size()), map);
+                }
                 index = list.add(light, sides * double(PI) * area * mean);
             }
             lights.light_of_primitive.push_back(index);
@@ -142,6 +172,7 @@ void rebuild_lights(World& world, const Scene& scene, const Pose& pose) {
     lights.punctual_count = std::uint32_t(list.powers.size());
     add_triangle_lights(list, world);
     lights.count = std::uint32_t(list.powers.size());
+    list.append_maps();
     AliasTable table = build_alias_table(list.powers);
     lights.rows = std::move(list.rows);
     lights.alias_rows = std::move(table.rows);

@@ -14,8 +14,8 @@ std::vector<std::uint32_t> add_texels(World& world, const Scene& scene) {
     std::vector<std::uint32_t> first_texel;
     for (const TextureImage& image : scene.images) {
         if (world.texels.size() + image.texels.size() > TEXEL_LIMIT) {
-            throw Error("{}: image '{}' would make {} texels, the texture pool holds {}", scene.name, image.name,
-                        world.texels.size() + image.texels.size(), TEXEL_LIMIT);
+            throw Error("{}: image '{}' would make {} texels, the texture pool holds {}", scene.name,
+                        image.name, world.texels.size() + image.texels.size(), TEXEL_LIMIT);
         }
         first_texel.push_back(std::uint32_t(world.texels.size()));
         world.texels.insert(world.texels.end(), image.texels.begin(), image.texels.end());
@@ -23,7 +23,8 @@ std::vector<std::uint32_t> add_texels(World& world, const Scene& scene) {
     return first_texel;
 }
 
-SlotRecord make_slot(const Scene& scene, const TextureSlot& slot, const std::vector<std::uint32_t>& first_texel) {
+SlotRecord make_slot(const Scene& scene, const TextureSlot& slot,
+                     const std::vector<std::uint32_t>& first_texel) {
     SlotRecord record{};
     record.scale = glm::vec2(1.0f);
     if (!slot.texture.is_set()) return record;
@@ -60,7 +61,8 @@ MaterialRecord make_record(const Material& material) {
     record.roughness = material.roughness;
     record.normal_scale = material.normal_scale;
     record.flags = material_flags(material);
-    // KHR_materials_ior and KHR_materials_specular: F0 = min(((n-1)/(n+1))^2 * tint, 1) * weight, F90 = weight.
+    // KHR_materials_ior and KHR_materials_specular: F0 = min(((n-1)/(n+1))^2 * tint, 1) * weight, F90 =
+    // weight.
     const float root = material.ior == 0.0f ? 1.0f : (material.ior - 1.0f) / (material.ior + 1.0f);
     record.dielectric_f0 =
         glm::min(root * root * material.specular_color, glm::vec3(1.0f)) * material.specular;

@@ -1,4 +1,5 @@
-// The world as the shared scene functions see it on the CPU: shaders/shared/scene/*.h become members of this class.
+// The world as the shared scene functions see it on the CPU: shaders/shared/scene/*.h become members of this
+// class.
 #pragma once
 
 #include "shared/interface/records.h"
@@ -39,8 +40,8 @@ class SceneAccess {
     static constexpr bool SCENE_HAS_TRIANGLE_LIGHTS = true;
     static constexpr bool SCENE_HAS_TEXTURED_LIGHTS = true;
 
-#include "shared/scene/surface.h"
 #include "shared/scene/lights.h"
+#include "shared/scene/surface.h"
 
   private:
     const World& world_;

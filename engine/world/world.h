@@ -1,7 +1,8 @@
 // The world at one moment, flattened into the records that shaders, rays and the reference all read.
 //
-// Everything is relative to `origin_ws`, a point near the scene, so that single precision keeps its digits wherever the
-// scene lies. Records and their packing: shaders/shared/interface/records.h and shaders/shared/math/light.h.
+// Everything is relative to `origin_ws`, a point near the scene, so that single precision keeps its digits
+// wherever the scene lies. Records and their packing: shaders/shared/interface/records.h and
+// shaders/shared/math/light.h.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,8 @@
 
 namespace tarn {
 
-// A contiguous part of a mesh's triangles with its bounds, for culling. Primitive indices keep the mesh's order.
+// A contiguous part of a mesh's triangles with its bounds, for culling. Primitive indices keep the mesh's
+// order.
 struct Cluster {
     std::uint32_t first_triangle = 0;  // within the mesh
     std::uint32_t triangle_count = 0;
@@ -29,10 +31,10 @@ struct Cluster {
 struct WorldMesh {
     std::uint32_t first_triangle = 0;  // in World::triangles
     std::uint32_t triangle_count = 0;
-    std::uint32_t first_vertex = 0;    // in World::vertex_rows / VERTEX_ROWS; triangles count from here
+    std::uint32_t first_vertex = 0;  // in World::vertex_rows / VERTEX_ROWS; triangles count from here
     std::uint32_t vertex_count = 0;
     std::vector<Cluster> clusters;
-    std::uint64_t revision = 0;        // grows when vertices move
+    std::uint64_t revision = 0;  // grows when vertices move
 };
 
 struct WorldInstance {
@@ -40,7 +42,7 @@ struct WorldInstance {
     std::uint32_t scene_instance = 0;  // in Scene::instances
     glm::mat4 world_from_object{1.0f};
     bool mirrored = false;
-    std::uint64_t revision = 0;        // grows when the instance moves
+    std::uint64_t revision = 0;  // grows when the instance moves
 };
 
 // An emissive sky. Radiance and sampling probability per texel; see shaders/shared/math/environment.h.
@@ -52,13 +54,13 @@ struct WorldEnvironment {
 };
 
 struct WorldLights {
-    std::vector<glm::uvec4> rows;        // LIGHT_ROWS a light
+    std::vector<glm::uvec4> rows;        // LIGHT_ROWS a light, then EMISSION_MAP_ROWS a textured one
     std::vector<glm::uvec4> alias_rows;  // by power
     std::vector<float> pmf;              // probability of each light under the alias table
     std::uint32_t count = 0;
-    std::uint32_t punctual_count = 0;    // these come first
-    // Triangle lights by where they are: instance_first[i] is the index into `light_of_primitive` of instance i's
-    // first primitive, or INVALID_INDEX where the instance does not emit.
+    std::uint32_t punctual_count = 0;  // these come first
+    // Triangle lights by where they are: instance_first[i] is the index into `light_of_primitive` of instance
+    // i's first primitive, or INVALID_INDEX where the instance does not emit.
     std::vector<std::uint32_t> instance_first;
     std::vector<std::uint32_t> light_of_primitive;
     std::uint64_t revision = 0;
@@ -78,7 +80,9 @@ struct World {
     WorldLights lights;
     WorldEnvironment environment;
 
-    std::uint32_t material_of(std::uint32_t instance) const { return instance_rows[instance * INSTANCE_ROWS + 3].z; }
+    std::uint32_t material_of(std::uint32_t instance) const {
+        return instance_rows[instance * INSTANCE_ROWS + 3].z;
+    }
     std::uint32_t flags_of(std::uint32_t instance) const { return material_flags[material_of(instance)]; }
 };
 
@@ -90,12 +94,13 @@ struct WorldOptions {
 // Flattens a scene. Scenes without any light and without an environment get an even sky of radiance 1.
 World build_world(const Scene& scene, const WorldOptions& options = {});
 
-// Moves what `time_s` moves: instance rows, deformed vertices, lights. Revisions grow where something changed.
+// Moves what `time_s` moves: instance rows, deformed vertices, lights. Revisions grow where something
+// changed.
 void update_world(World& world, const Scene& scene, double time_s);
 
 // The camera at `index` of the scene, in this pose; nullopt when there is no such camera.
-std::optional<CameraRecord> scene_camera(const Scene& scene, const World& world, CameraIndex index, double aspect,
-                                         double time_s);
+std::optional<CameraRecord> scene_camera(const Scene& scene, const World& world, CameraIndex index,
+                                         double aspect, double time_s);
 
 // A camera that looks from `position_ws` to `target_ws` with a vertical field of view in degrees.
 CameraRecord look_at(const World& world, const glm::dvec3& position_ws, const glm::dvec3& target_ws,

@@ -1,5 +1,5 @@
-// The rasterizer and the ray tracer see the same triangle at the same place in every pixel, and shadow rays neither
-// start below their surface nor leak through it, wherever the scene lies.
+// The rasterizer and the ray tracer see the same triangle at the same place in every pixel, and shadow rays
+// neither start below their surface nor leak through it, wherever the scene lies.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -17,9 +17,9 @@ constexpr int HEIGHT_PX = 360;
 
 struct Agreement {
     int pixels = 0;
-    int same_triangle = 0;   // or both see nothing
-    int surfaces = 0;        // pixels where both see the same triangle
-    int same_position = 0;   // of those, within 1e-5 of the distance
+    int same_triangle = 0;  // or both see nothing
+    int surfaces = 0;       // pixels where both see the same triangle
+    int same_position = 0;  // of those, within 1e-5 of the distance
     double worst_position = 0.0;
 };
 
@@ -42,12 +42,14 @@ class RasterAgainstRays : public testing::Test {
                 const PixelRay view = camera_ray(camera, vec2(x + 0.5f, y + 0.5f), vec2(WIDTH_PX, HEIGHT_PX));
                 RayRecord ray{view.origin, RAY_INFINITY, view.direction, pixel};
                 const auto hit = scene.tracer->trace_closest(ray, {0, 0, RAY_CAMERA}, BackFaces::PASS);
-                const glm::uvec2 met = hit ? glm::uvec2(hit->instance, hit->primitive) : glm::uvec2(INVALID_INDEX);
+                const glm::uvec2 met =
+                    hit ? glm::uvec2(hit->instance, hit->primitive) : glm::uvec2(INVALID_INDEX);
                 ++a.pixels;
                 if (seen[pixel].x != met.x || (hit && seen[pixel].y != met.y)) continue;
                 ++a.same_triangle;
                 if (!hit) continue;
-                const glm::dvec3 met_at = glm::dvec3(view.origin) + glm::dvec3(view.direction) * double(hit->t);
+                const glm::dvec3 met_at =
+                    glm::dvec3(view.origin) + glm::dvec3(view.direction) * double(hit->t);
                 const double error = glm::length(glm::dvec3(position[pixel]) - met_at) / double(hit->t);
                 ++a.surfaces;
                 if (error <= 1e-5) ++a.same_position;
@@ -62,8 +64,10 @@ class RasterAgainstRays : public testing::Test {
         const auto scene = load_test_scene(file);
         const Agreement a = compare(*scene, first_camera(*scene, double(WIDTH_PX) / HEIGHT_PX));
         const double same = double(a.same_triangle) / a.pixels, placed = double(a.same_position) / a.surfaces;
-        std::printf("same triangle in %.3f %% of %d pixels; same position in %.3f %% of %d, worst %.2g of the distance\n",
-                    100.0 * same, a.pixels, 100.0 * placed, a.surfaces, a.worst_position);
+        std::printf(
+            "same triangle in %.3f %% of %d pixels; same position in %.3f %% of %d, worst %.2g of the "
+            "distance\n",
+            100.0 * same, a.pixels, 100.0 * placed, a.surfaces, a.worst_position);
         EXPECT_GT(a.surfaces, a.pixels / 20);
         EXPECT_GE(same, 0.995);
         EXPECT_GE(placed, 0.999);
@@ -72,9 +76,13 @@ class RasterAgainstRays : public testing::Test {
     static inline std::unique_ptr<Context> context_;
 };
 
-TEST_F(RasterAgainstRays, LanternCourt) { expect_agreement(content_file("lantern_court")); }
+TEST_F(RasterAgainstRays, LanternCourt) {
+    expect_agreement(content_file("lantern_court"));
+}
 
-TEST_F(RasterAgainstRays, Sponza) { expect_agreement(shared_file("SponzaDabrovic/SponzaDabrovic.gltf")); }
+TEST_F(RasterAgainstRays, Sponza) {
+    expect_agreement(shared_file("SponzaDabrovic/SponzaDabrovic.gltf"));
+}
 
 TEST_F(RasterAgainstRays, MetalRoughSpheres) {
     expect_agreement(shared_file("MetalRoughSpheresNoTextures/MetalRoughSpheresNoTextures.glb"));
@@ -84,15 +92,17 @@ TEST_F(RasterAgainstRays, MaskedAndBlendedSurfaces) {
     expect_agreement(shared_file("AlphaBlendModeTest/AlphaBlendModeTest.glb"));
 }
 
-// ---- Acne and leaks -------------------------------------------------------------------------------------------------
+// ---- Acne and leaks
+// -------------------------------------------------------------------------------------------------
 
 class WorldOffset : public RasterAgainstRays, public testing::WithParamInterface<double> {};
 
-// A closed white room seen from within, lit evenly by its own ceiling light: every shadow ray between two surfaces of
-// the Cornell box that see each other must arrive, and none may leave the box.
+// A closed white room seen from within, lit evenly by its own ceiling light: every shadow ray between two
+// surfaces of the Cornell box that see each other must arrive, and none may leave the box.
 TEST_P(WorldOffset, TheCornellBoxHasNoAcneAndNoLeaks) {
     const double offset_m = GetParam();
-    const auto scene = load_test_scene(content_file("cornell"), glm::dvec3(offset_m, -0.5 * offset_m, offset_m));
+    const auto scene =
+        load_test_scene(content_file("cornell"), glm::dvec3(offset_m, -0.5 * offset_m, offset_m));
     const auto at_origin = load_test_scene(content_file("cornell"));
     const double aspect = double(WIDTH_PX) / HEIGHT_PX;
     const auto render = [&](const TestScene& s) {
@@ -108,8 +118,8 @@ TEST_P(WorldOffset, TheCornellBoxHasNoAcneAndNoLeaks) {
         return sum;
     };
     const Image moved = render(*scene), still = render(*at_origin);
-    // Same random numbers, same geometry up to rounding: a pixel that turned black (acne) or lit up (a leak) stands
-    // out. Penumbras flip a ray here and there, which 16 frames average.
+    // Same random numbers, same geometry up to rounding: a pixel that turned black (acne) or lit up (a leak)
+    // stands out. Penumbras flip a ray here and there, which 16 frames average.
     int black = 0, lit = 0, pixels = 0;
     for (int y = 0; y < HEIGHT_PX; ++y) {
         for (int x = 0; x < WIDTH_PX; ++x) {

@@ -35,10 +35,14 @@ struct Errors {
     double reference_error = 0.0;
 };
 
-std::filesystem::path default_path_file() { return std::filesystem::path(TARN_FLYTHROUGH_DIR) / "lantern_court.json"; }
+std::filesystem::path default_path_file() {
+    return std::filesystem::path(TARN_FLYTHROUGH_DIR) / "lantern_court.json";
+}
 
 // Every how manieth frame is taken so that `count` of `frames` are.
-int stride_for(int frames, int count) { return count > 0 ? std::max(1, frames / count) : frames + 1; }
+int stride_for(int frames, int count) {
+    return count > 0 ? std::max(1, frames / count) : frames + 1;
+}
 
 std::string frame_name(const char* stem, int frame, const char* extension) {
     return fmt::format("{}_{:04}.{}", stem, frame, extension);
@@ -49,8 +53,8 @@ float choose_exposure(const RenderOptions& options, const Image& radiance) {
     return options.exposure_ev.value_or(auto_exposure_ev(radiance));
 }
 
-Errors measure(const FlythroughCommand& command, RenderSession& session, const FrameInput& input, const Image& radiance,
-               float exposure_ev) {
+Errors measure(const FlythroughCommand& command, RenderSession& session, const FrameInput& input,
+               const Image& radiance, float exposure_ev) {
     ReferenceSettings settings;
     settings.width = radiance.width;
     settings.height = radiance.height;
@@ -66,7 +70,8 @@ Errors measure(const FlythroughCommand& command, RenderSession& session, const F
     Errors result;
     result.frame = int(input.frame);
     result.errors = compute_image_errors(reference.radiance, radiance, std::exp2(exposure_ev));
-    result.flip_ldr = mean_error(compute_ldr_flip(reference_display, display_from_radiance(radiance, exposure_ev)));
+    result.flip_ldr =
+        mean_error(compute_ldr_flip(reference_display, display_from_radiance(radiance, exposure_ev)));
     result.reference_error = reference.relative_error;
     return result;
 }
@@ -86,20 +91,24 @@ nlohmann::json to_json(const std::vector<Errors>& measured) {
     return list;
 }
 
-void print_summary(const FlythroughCommand& command, const RunTotals& totals, const std::vector<Errors>& measured) {
+void print_summary(const FlythroughCommand& command, const RunTotals& totals,
+                   const std::vector<Errors>& measured) {
     fmt::print("{} frames: median {:.1f} ms, p95 {:.1f} ms a frame\n", totals.frames,
                totals.timings.frame_quantile_ms(0.5), totals.timings.frame_quantile_ms(0.95));
-    for (const PassTiming& pass : totals.timings.pass_medians()) fmt::print("  {:<24} {:8.2f} ms\n", pass.name, pass.ms);
+    for (const PassTiming& pass : totals.timings.pass_medians())
+        fmt::print("  {:<24} {:8.2f} ms\n", pass.name, pass.ms);
     for (const Errors& m : measured) {
-        fmt::print("  frame {:4}: relMSE {:.4f}, FLIP {:.4f}, energy {:.4f} of the reference (itself good to {:.1f} %)\n",
-                   m.frame, m.errors.rel_mse, m.flip_ldr, m.errors.mean_ratio, 100.0 * m.reference_error);
+        fmt::print(
+            "  frame {:4}: relMSE {:.4f}, FLIP {:.4f}, energy {:.4f} of the reference (itself good to {:.1f} "
+            "%)\n",
+            m.frame, m.errors.rel_mse, m.flip_ldr, m.errors.mean_ratio, 100.0 * m.reference_error);
     }
     fmt::print("Pictures, timings and errors are in {}\n", std::filesystem::absolute(command.out).string());
 }
 
 void run_flythrough(FlythroughCommand& command) {
-    const CameraPath path =
-        load_camera_path(command.path_file.empty() ? default_path_file() : std::filesystem::path(command.path_file));
+    const CameraPath path = load_camera_path(
+        command.path_file.empty() ? default_path_file() : std::filesystem::path(command.path_file));
     if (command.options.scene.scene.empty()) command.options.scene.scene = path.scene;
     if (command.options.scene.scene.empty()) throw Error("{}: names no scene; give one", command.path_file);
     if (!command.options.json_file.empty()) check_output_folder(command.options.json_file);
@@ -119,7 +128,8 @@ void run_flythrough(FlythroughCommand& command) {
         session.move_to(time_s);
         const CameraKey key = evaluate_camera_path(path, time_s);
         FrameInput input;
-        input.camera = look_at(session.loaded().world, key.position_ws, key.target_ws, key.vertical_fov_deg, aspect);
+        input.camera =
+            look_at(session.loaded().world, key.position_ws, key.target_ws, key.vertical_fov_deg, aspect);
         input.frame = std::uint32_t(frame);
         input.seed = command.options.scene.seed;
         input.settings = command.options.settings;
@@ -153,13 +163,17 @@ void add_flythrough_command(CLI::App& app) {
         "flythrough", "Play a camera path without a window; write pictures, timings and errors");
     auto command = std::make_shared<FlythroughCommand>();
     add_render_options(*sub, command->options);
-    sub->get_option("SCENE")->required(false)->description("glTF file or generated scene (default: the path's own)");
+    sub->get_option("SCENE")->required(false)->description(
+        "glTF file or generated scene (default: the path's own)");
     // The path says where from and when.
     sub->remove_option(sub->get_option("--camera"));
     sub->remove_option(sub->get_option("--time"));
-    sub->add_option("--path", command->path_file, "Camera path, a JSON file (default: through lantern_court)");
+    sub->add_option("--path", command->path_file,
+                    "Camera path, a JSON file (default: through lantern_court)");
     sub->add_option("--out", command->out, "Folder for the pictures and report.json")->capture_default_str();
-    sub->add_option("--frames", command->frames, "Frames along the path")->check(CLI::Range(1, 1000000))->capture_default_str();
+    sub->add_option("--frames", command->frames, "Frames along the path")
+        ->check(CLI::Range(1, 1000000))
+        ->capture_default_str();
     sub->add_option("--pictures", command->pictures, "How many frames to write as PNG")
         ->check(CLI::Range(0, 1000000))
         ->capture_default_str();

@@ -1,5 +1,5 @@
-// tarn: renders, measures and shows scenes. Exit status: 0; 1 with one line on stderr where the world disappoints;
-// 2 for wrong usage.
+// tarn: renders, measures and shows scenes. Exit status: 0; 1 with one line on stderr where the world
+// disappoints; 2 for wrong usage.
 #include <cstdio>
 #include <exception>
 
@@ -10,7 +10,8 @@ namespace tarn {
 namespace {
 
 int run(int argc, char** argv) {
-    CLI::App app{"Tarn: an OpenGL 4.5 deferred rasterizer with resampled lights and Embree shadows, on the CPU."};
+    CLI::App app{
+        "Tarn: an OpenGL 4.5 deferred rasterizer with resampled lights and Embree shadows, on the CPU."};
     app.require_subcommand(1);
     add_info_command(app);
     add_render_command(app);

@@ -16,7 +16,9 @@ struct RenderCommand {
     bool accumulate = false;
 };
 
-bool is_exr(const std::string& file) { return std::filesystem::path(file).extension() == ".exr"; }
+bool is_exr(const std::string& file) {
+    return std::filesystem::path(file).extension() == ".exr";
+}
 
 void check_output(const std::string& file) {
     const std::string extension = std::filesystem::path(file).extension().string();

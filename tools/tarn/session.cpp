@@ -72,7 +72,8 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
     command.add_option("--context", options.context, "Where GL comes from [egl, glfw, osmesa]")
         ->check(CLI::IsMember({"egl", "glfw", "osmesa"}))
         ->capture_default_str();
-    command.add_option("--exposure", options.exposure_ev, "Exposure of PNG pictures, EV (default: automatic)")
+    command
+        .add_option("--exposure", options.exposure_ev, "Exposure of PNG pictures, EV (default: automatic)")
         ->check([](const std::string& text) {
             // The conversion itself takes "nan" and "inf" for numbers.
             const bool is_odd = !text.empty() && !std::isfinite(std::strtod(text.c_str(), nullptr));
@@ -85,7 +86,8 @@ RenderSession::RenderSession(const RenderOptions& options)
     : workers_(options.scene.threads), loaded_(load_scene(options.scene)), threads_(options.scene.threads) {
     context_ = create_context(context_options(options));
     tracer_ = create_embree_tracer(loaded_.world);
-    renderer_ = std::make_unique<Renderer>(loaded_.world, *tracer_, options.scene.width, options.scene.height);
+    renderer_ =
+        std::make_unique<Renderer>(loaded_.world, *tracer_, options.scene.width, options.scene.height);
 }
 
 void RenderSession::move_to(double time_s) {

@@ -16,12 +16,14 @@ DirectCandidatesPass::DirectCandidatesPass(ProgramLibrary& programs, int width_p
     : programs_(programs),
       width_px_(width_px),
       height_px_(height_px),
-      reservoirs_("direct/reservoirs", rows_size_bytes(width_px, height_px, RESERVOIR_ROWS), BufferUse::DEVICE),
+      reservoirs_("direct/reservoirs", rows_size_bytes(width_px, height_px, RESERVOIR_ROWS),
+                  BufferUse::DEVICE),
       reservoir_texture_("direct/reservoirs", reservoirs_, GL_RGBA32UI),
       rays_("direct/rays", rows_size_bytes(width_px, height_px, RAY_ROWS), BufferUse::SHARED) {}
 
 Candidates DirectCandidatesPass::record(FrameRecorder& frame, const GBuffer& gbuffer, DirectMode mode,
-                                        const Buffer& counters, const std::vector<std::string>& scene_defines) {
+                                        const Buffer& counters,
+                                        const std::vector<std::string>& scene_defines) {
     std::vector<std::string> defines = scene_defines;
     defines.push_back(mode == DirectMode::UNIFORM ? "TARN_DIRECT_UNIFORM" : "TARN_DIRECT_RIS");
     PassRecorder pass = frame.pass("direct/candidates");
@@ -39,8 +41,10 @@ DirectShadePass::DirectShadePass(ProgramLibrary& programs, int width_px, int hei
       height_px_(height_px),
       radiance_("direct/radiance", width_px, height_px, GL_RGBA32F) {}
 
-const Texture2D& DirectShadePass::record(FrameRecorder& frame, const GBuffer& gbuffer, const Candidates& candidates,
-                                         const Visibility& visibility, const Buffer& counters, const std::vector<std::string>& scene_defines) {
+const Texture2D& DirectShadePass::record(FrameRecorder& frame, const GBuffer& gbuffer,
+                                         const Candidates& candidates, const Visibility& visibility,
+                                         const Buffer& counters,
+                                         const std::vector<std::string>& scene_defines) {
     PassRecorder pass = frame.pass("direct/shade");
     read_gbuffer(pass, gbuffer)
         .read(UNIT_EMISSION, gbuffer.emission)

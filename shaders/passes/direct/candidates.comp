@@ -24,77 +24,90 @@ void store(uint pixel, Reservoir reservoir, RayRecord ray) {
     out_rays[pixel * RAY_ROWS + 1u] = row1;
 }
 
+// What the loop over candidates works on.
+struct Stream {
+    ShadingPoint point;
+    Frame frame;
+    vec3 view_local;
+    RandomKey key;
+    uint count;
+    LiveReservoir live;
+};
+
+// Offers candidate `i`, drawn with `c.pdf`, with resampling weight target / (pdf * count).
+void offer(inout Stream s, LightCandidate c, uint i) {
+#ifdef TARN_PLANT_DROP_PDF
+    c.pdf = 1.0f;
+#endif
+#ifdef TARN_PLANT_SHIFT_LIGHT
+    if (c.drawn.light < get_light_count()) {
+        c.drawn.light = (c.drawn.light + (get_light_count() + 1u) / 2u) % get_light_count();
+    }
+#endif
+    IncidentLight incident = load_incident_light(c.drawn, s.point.position);
+    float target = target_function(reflect_light(s.point, s.frame, s.view_local, incident));
+    float weight = target == 0.0f ? 0.0f : target / (c.pdf * float(s.count));
+    float u = random4(s.key, DIMENSION_CHOICE + i).x;
+    if (!offer_candidate(s.live, c.drawn, target, weight, u)) count_event(COUNTER_BAD_WEIGHT);
+}
+
 #ifdef TARN_DIRECT_UNIFORM
 uint candidate_count() { return 1u; }
 
-LightCandidate draw_candidate(RandomKey key, uint i) {
-    return draw_light_uniformly(random_bits4(key, DIMENSION_CANDIDATE + i));
-}
+void offer_all(inout Stream s) { offer(s, draw_light_uniformly(random_bits4(s.key, DIMENSION_CANDIDATE)), 0u); }
 #else
 uint candidate_count() { return frame_lights.w; }
 
-// Systematic: the sky gets its share exactly, in the same places of the loop for all pixels of a frame.
-bool goes_to_sky(uint i) {
-    float share = environment_probability();
+// How many of `count` candidates go to the sky: its share, rounded up or down at random, alike for all pixels of a
+// frame. Each kind of light has a loop of its own, since a software GPU runs both sides of a branch.
+uint sky_candidate_count(uint count) {
     RandomKey key;
     key.pixel = 0u;
     key.frame = frame_size.z;
     key.seed = frame_size.w;
-    float shift = float_from_bits(random_bits4(key, DIMENSION_SELECT).x);
-    return floor(float(i + 1u) * share + shift) > floor(float(i) * share + shift);
+    float shift = random4(key, DIMENSION_SELECT).x;
+    return min(count, uint(floor(float(count) * environment_probability() + shift)));
 }
 
-LightCandidate draw_candidate(RandomKey key, uint i) {
-    uvec4 bits = random_bits4(key, DIMENSION_CANDIDATE + i);
+void offer_all(inout Stream s) {
     float share = environment_probability();
-    LightCandidate c;
-    if (SCENE_HAS_ENVIRONMENT && goes_to_sky(i)) {
-        c = draw_environment(bits);
-        c.pdf *= share;
-    } else if (get_light_count() > 0u) {
-        c = draw_light_by_power(bits);
-        c.pdf *= 1.0f - share;
-    } else {
-        c = no_candidate();
+    uint sky_count = SCENE_HAS_ENVIRONMENT ? sky_candidate_count(s.count) : 0u;
+    if (SCENE_HAS_ENVIRONMENT) {
+        for (uint i = 0u; i < sky_count; ++i) {
+            LightCandidate c = draw_environment(random_bits4(s.key, DIMENSION_CANDIDATE + i));
+            c.pdf *= share;
+            offer(s, c, i);
+        }
     }
-    return c;
+    if (get_light_count() > 0u) {
+        for (uint i = sky_count; i < s.count; ++i) {
+            LightCandidate c = draw_light_by_power(random_bits4(s.key, DIMENSION_CANDIDATE + i));
+            c.pdf *= 1.0f - share;
+            offer(s, c, i);
+        }
+    }
 }
 #endif
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (is_outside(pixel)) return;
-    ShadingPoint p;
-    if (!load_shading_point(pixel, p)) {
+    Stream s;
+    if (!load_shading_point(pixel, s.point)) {
         store(pixel_index(pixel), empty_reservoir(), inactive_ray());
         return;
     }
-    RandomKey key = pixel_key(pixel);
-    Frame frame = make_frame(p.shading_normal);
-    vec3 view_local = to_local(frame, -pixel_ray(pixel).direction);
-    uint count = candidate_count();
-    LiveReservoir live = empty_live_reservoir();
-    for (uint i = 0u; i < count; ++i) {
-        LightCandidate c = draw_candidate(key, i);
-#ifdef TARN_PLANT_DROP_PDF
-        c.pdf = 1.0f;
-#endif
-#ifdef TARN_PLANT_SHIFT_LIGHT
-        if (c.drawn.light < get_light_count()) {
-            c.drawn.light = (c.drawn.light + (get_light_count() + 1u) / 2u) % get_light_count();
-        }
-#endif
-        IncidentLight incident = load_incident_light(c.drawn, p.position);
-        float target = target_function(reflect_light(p, frame, view_local, incident));
-        float weight = target == 0.0f ? 0.0f : target / (c.pdf * float(count));
-        float u = random4(key, DIMENSION_SELECT + 1024u + i).x;
-        if (!offer_candidate(live, c.drawn, target, weight, u)) count_event(COUNTER_BAD_WEIGHT);
-    }
-    Reservoir reservoir = finish_reservoir(live, float(count));
+    s.key = pixel_key(pixel);
+    s.frame = make_frame(s.point.shading_normal);
+    s.view_local = to_local(s.frame, -pixel_ray(pixel).direction);
+    s.count = candidate_count();
+    s.live = empty_live_reservoir();
+    offer_all(s);
+    Reservoir reservoir = finish_reservoir(s.live, float(s.count));
     RayRecord ray = inactive_ray();
     if (reservoir.contribution_weight > 0.0f) {
-        IncidentLight incident = load_incident_light(reservoir.chosen, p.position);
-        ray = make_shadow_ray(p, incident, load_light_error(reservoir.chosen), pixel_index(pixel));
+        IncidentLight incident = load_incident_light(reservoir.chosen, s.point.position);
+        ray = make_shadow_ray(s.point, incident, load_light_error(reservoir.chosen), pixel_index(pixel));
     }
     store(pixel_index(pixel), reservoir, ray);
 }

@@ -14,9 +14,9 @@ struct FrameBlock {
     vec4 frame_camera_position;  // relative to the world's origin; w = 1 for an orthographic camera
     vec4 frame_camera_right;
     vec4 frame_camera_up;
-    vec4 frame_camera_forward;   // w = near (perspective) or depth range (orthographic), metres
-    uvec4 frame_size;            // width, height in pixels; frame number; seed
-    uvec4 frame_lights;          // light count; environment width, height; RIS candidates
+    vec4 frame_camera_forward;  // w = near (perspective) or depth range (orthographic), metres
+    uvec4 frame_size;           // width, height in pixels; frame number; seed
+    uvec4 frame_lights;         // light count; environment width, height; RIS candidates
 };
 
 // Places in the counter buffer; names in renderer/counters.cpp.

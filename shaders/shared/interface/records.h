@@ -1,5 +1,5 @@
-// Records that cross the border between CPU and GL: rows of four 32-bit words, read through RGBA32UI texture buffers.
-// Each has its packing beside it; tests/gpu/layout.cpp runs both sides over the same bytes.
+// Records that cross the border between CPU and GL: rows of four 32-bit words, read through RGBA32UI texture
+// buffers. Each has its packing beside it; tests/gpu/layout.cpp runs both sides over the same bytes.
 #pragma once
 
 #include "shared/dialect.h"
@@ -7,7 +7,8 @@
 
 SHARED_BEGIN
 
-// ---- Vertex: position, normal, tangent, two uv sets, colour -------------------------------------------------------
+// ---- Vertex: position, normal, tangent, two uv sets, colour
+// -------------------------------------------------------
 
 CONSTANT uint VERTEX_ROWS = 4u;
 
@@ -24,11 +25,12 @@ FN void pack_vertex(Vertex v, OUT(uvec4) row0, OUT(uvec4) row1, OUT(uvec4) row2,
     row0 = pack_row(v.position_os, floatBitsToUint(v.uv0.x));
     row1 = pack_row(v.normal_os, floatBitsToUint(v.uv0.y));
     row2 = pack_row4(v.tangent_os);
-    row3 = uvec4(floatBitsToUint(v.uv1.x), floatBitsToUint(v.uv1.y), packUnorm2x16(vec2(v.color.x, v.color.y)),
-                 packUnorm2x16(vec2(v.color.z, v.color.w)));
+    row3 = uvec4(floatBitsToUint(v.uv1.x), floatBitsToUint(v.uv1.y),
+                 packUnorm2x16(vec2(v.color.x, v.color.y)), packUnorm2x16(vec2(v.color.z, v.color.w)));
 }
 
-// ---- Instance: a mesh in the world --------------------------------------------------------------------------------
+// ---- Instance: a mesh in the world
+// --------------------------------------------------------------------------------
 
 CONSTANT uint INSTANCE_ROWS = 4u;
 CONSTANT uint INSTANCE_MIRRORED = 1u;  // the transform turns triangles inside out (negative determinant)
@@ -53,7 +55,8 @@ FN InstanceRecord unpack_instance(uvec4 row0, uvec4 row1, uvec4 row2, uvec4 row3
     return r;
 }
 
-// ---- Material -----------------------------------------------------------------------------------------------------
+// ---- Material
+// -----------------------------------------------------------------------------------------------------
 
 CONSTANT uint MATERIAL_ROWS = 12u;
 CONSTANT uint MATERIAL_ALPHA_MASK = 1u;
@@ -90,11 +93,13 @@ FN MaterialRecord unpack_material(uvec4 row0, uvec4 row1, uvec4 row2, uvec4 row3
 FN void pack_material(MaterialRecord r, OUT(uvec4) row0, OUT(uvec4) row1, OUT(uvec4) row2, OUT(uvec4) row3) {
     row0 = pack_row4(r.base_color);
     row1 = pack_row(r.emission, floatBitsToUint(r.alpha_cutoff));
-    row2 = uvec4(floatBitsToUint(r.metallic), floatBitsToUint(r.roughness), floatBitsToUint(r.normal_scale), r.flags);
+    row2 = uvec4(floatBitsToUint(r.metallic), floatBitsToUint(r.roughness), floatBitsToUint(r.normal_scale),
+                 r.flags);
     row3 = pack_row(r.dielectric_f0, floatBitsToUint(r.dielectric_f90));
 }
 
-// ---- Texture slot: rows 4.. of a material, two each ---------------------------------------------------------------
+// ---- Texture slot: rows 4.. of a material, two each
+// ---------------------------------------------------------------
 
 CONSTANT uint SLOT_BASE_COLOR = 0u;
 CONSTANT uint SLOT_METALLIC_ROUGHNESS = 1u;
@@ -129,15 +134,16 @@ FN void pack_slot(SlotRecord r, OUT(uvec4) row0, OUT(uvec4) row1) {
     row1 = pack_row4(vec4(r.offset.x, r.offset.y, r.scale.x, r.scale.y));
 }
 
-// ---- Ray: what a shader asks of the ray tracer --------------------------------------------------------------------
+// ---- Ray: what a shader asks of the ray tracer
+// --------------------------------------------------------------------
 
 CONSTANT uint RAY_ROWS = 2u;
 
 struct RayRecord {
-    vec3 origin;        // relative to the world's origin
-    float max_t;        // in units of |direction|; negative: an inactive ray, answered "visible" without tracing
-    vec3 direction;     // any length but 0
-    uint pixel;         // for the random numbers of partial coverage
+    vec3 origin;     // relative to the world's origin
+    float max_t;     // in units of |direction|; negative: an inactive ray, answered "visible" without tracing
+    vec3 direction;  // any length but 0
+    uint pixel;      // for the random numbers of partial coverage
 };
 
 FN RayRecord inactive_ray() {
@@ -163,9 +169,11 @@ FN RayRecord unpack_ray(uvec4 row0, uvec4 row1) {
     return ray;
 }
 
-// ---- Camera -------------------------------------------------------------------------------------------------------
+// ---- Camera
+// -------------------------------------------------------------------------------------------------------
 
-// The view through a pixel: perspective: direction = forward + x right + y up; orthographic: origin moves instead.
+// The view through a pixel: perspective: direction = forward + x right + y up; orthographic: origin moves
+// instead.
 struct CameraRecord {
     vec3 position;  // relative to the world's origin
     vec3 right;     // half the width of the image plane at distance 1 (orthographic: in metres)

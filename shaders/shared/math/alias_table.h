@@ -5,8 +5,8 @@
 
 SHARED_BEGIN
 
-// One bucket: with probability `threshold` the bucket's own index, else `alias`. Both their probabilities travel
-// along, so that one load answers a draw.
+// One bucket: with probability `threshold` the bucket's own index, else `alias`. Both their probabilities
+// travel along, so that one load answers a draw.
 struct AliasBucket {
     float threshold;
     uint alias;
@@ -20,7 +20,9 @@ struct DiscreteSample {
 };
 
 // One of `count` indices from 32 random bits. (A float's 24 bits would favour some of a million by 6 %.)
-FN uint uniform_index(uint bits, uint count) { return multiply_high(bits, count); }
+FN uint uniform_index(uint bits, uint count) {
+    return multiply_high(bits, count);
+}
 
 FN DiscreteSample resolve_alias(AliasBucket bucket, uint bucket_index, float u) {
     DiscreteSample result;

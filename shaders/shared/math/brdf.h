@@ -1,10 +1,10 @@
-// The glTF metallic-roughness BRDF: a Lambert base under a GGX layer (height-correlated Smith), in local space (+Z is
-// the shading normal).
+// The glTF metallic-roughness BRDF: a Lambert base under a GGX layer (height-correlated Smith), in local
+// space (+Z is the shading normal).
 //
 // Source: Khronos glTF 2.0 specification, appendix B. One departure: its sample formula weighs the base with
-// 1 - F(v.h), which reflects up to 1.8 times the light that arrives at grazing angles. Here the base is weighed with
-// (1 - F(n.v)) (1 - F(n.l)) (Shirley et al., "A Practitioners' Assessment of Light Reflection Models", 1997):
-// reciprocal, and never above 1 in a white furnace (tests/unit/brdf.cpp).
+// 1 - F(v.h), which reflects up to 1.8 times the light that arrives at grazing angles. Here the base is
+// weighed with (1 - F(n.v)) (1 - F(n.l)) (Shirley et al., "A Practitioners' Assessment of Light Reflection
+// Models", 1997): reciprocal, and never above 1 in a white furnace (tests/unit/brdf.cpp).
 #pragma once
 
 #include "shared/dialect.h"
@@ -22,7 +22,8 @@ struct SurfaceMaterial {
 
 // Below this width a highlight is narrower than single precision resolves.
 CONSTANT float MIN_ALPHA = 1e-3f;
-// Least cosine between the view direction and a shading normal; shading normals may turn away from the viewer.
+// Least cosine between the view direction and a shading normal; shading normals may turn away from the
+// viewer.
 CONSTANT float MIN_VIEW_COSINE = 1e-4f;
 
 FN vec3 fresnel_schlick(vec3 f0, float f90, float cosine) {
@@ -31,8 +32,8 @@ FN vec3 fresnel_schlick(vec3 f0, float f90, float cosine) {
     return f0 + (vec3(f90) - f0) * (m2 * m2 * m);
 }
 
-// GGX distribution of normals for a unit half vector. Written with sin^2 = x^2 + y^2, since 1 - z^2 loses all digits
-// on narrow highlights.
+// GGX distribution of normals for a unit half vector. Written with sin^2 = x^2 + y^2, since 1 - z^2 loses all
+// digits on narrow highlights.
 FN float evaluate_ggx(vec3 half_vector, float alpha) {
     float alpha2 = alpha * alpha;
     float sine2 = half_vector.x * half_vector.x + half_vector.y * half_vector.y;
@@ -54,12 +55,19 @@ FN vec3 clamp_view(vec3 view) {
     return normalize(vec3(view.x, view.y, MIN_VIEW_COSINE));
 }
 
+// Shaders of a scene without any specular layer leave it out (plan/frame_plan.cpp).
+#ifdef TARN_LAMBERT_ONLY
+CONSTANT bool SCENE_HAS_SPECULAR = false;
+#else
+CONSTANT bool SCENE_HAS_SPECULAR = true;
+#endif
+
 // BRDF value, 1/sr, without the cosine. `view` and `light` are unit vectors that point away from the surface.
 FN vec3 evaluate_brdf(SurfaceMaterial m, vec3 view, vec3 light) {
     if (light.z <= 0.0f) return vec3(0.0f);
     vec3 v = clamp_view(view);
     vec3 base = m.diffuse_albedo * INV_PI;
-    if (m.f90 == 0.0f && max_component(m.f0) == 0.0f) return base;
+    if (!SCENE_HAS_SPECULAR || (m.f90 == 0.0f && max_component(m.f0) == 0.0f)) return base;
     vec3 half_vector = normalize(v + light);
     float cos_h = clamp(dot(v, half_vector), 0.0f, 1.0f);
     float layer = evaluate_ggx(half_vector, m.alpha) * evaluate_visibility_smith(light.z, v.z, m.alpha);
@@ -78,8 +86,8 @@ FN float layer_probability(SurfaceMaterial m, vec3 view) {
     return clamp(layer / (layer + base), 0.1f, 0.9f);
 }
 
-// A half vector from the distribution of visible normals (Dupuy and Benyoub, "Sampling Visible GGX Normals with
-// Spherical Caps", 2023).
+// A half vector from the distribution of visible normals (Dupuy and Benyoub, "Sampling Visible GGX Normals
+// with Spherical Caps", 2023).
 FN vec3 sample_visible_normal(vec3 view, float alpha, vec2 u) {
     vec3 stretched = normalize(vec3(view.x * alpha, view.y * alpha, view.z));
     float phi = 2.0f * PI * u.x;
@@ -105,8 +113,8 @@ FN float pdf_brdf_solid_angle(SurfaceMaterial m, vec3 view, vec3 light) {
     return pdf;
 }
 
-// A direction to continue in, roughly in proportion to BRDF * cosine. May point below the surface: such a sample
-// carries nothing and its pdf is 0.
+// A direction to continue in, roughly in proportion to BRDF * cosine. May point below the surface: such a
+// sample carries nothing and its pdf is 0.
 FN vec3 sample_brdf(SurfaceMaterial m, vec3 view, vec3 u) {
     vec3 v = clamp_view(view);
     vec2 u2 = vec2(u.y, u.z);

@@ -1,5 +1,5 @@
-// From linear radiance to what a screen shows: exposure, Khronos PBR Neutral tone mapping, sRGB. The window and the PNG
-// files both run this text.
+// From linear radiance to what a screen shows: exposure, Khronos PBR Neutral tone mapping, sRGB. The window
+// and the PNG files both run this text.
 #pragma once
 
 #include "shared/dialect.h"
@@ -23,9 +23,11 @@ FN vec3 srgb_from_linear3(vec3 linear) {
 }
 
 // Khronos PBR Neutral tone mapping of linear Rec. 709 radiance (Khronos Group, "PBR Neutral Tone Mapper
-// Specification", 2024): colours up to 0.8 keep hue and saturation, brighter ones are compressed towards white.
+// Specification", 2024): colours up to 0.8 keep hue and saturation, brighter ones are compressed towards
+// white.
 FN vec3 map_tone_neutral(vec3 rgb) {
-    const float FRESNEL = 0.04f;  // the white glare of a dielectric, taken off so that base colours stay as given
+    const float FRESNEL =
+        0.04f;  // the white glare of a dielectric, taken off so that base colours stay as given
     const float COMPRESSION_START = 0.8f - FRESNEL;
     const float DESATURATION = 0.15f;
     float darkest = min(rgb.x, min(rgb.y, rgb.z));
@@ -40,7 +42,9 @@ FN vec3 map_tone_neutral(vec3 rgb) {
 }
 
 // One channel of exposed radiance, made fit for tone mapping: negative values and NaN become 0.
-FN float limit_exposed(float exposed) { return exposed > 0.0f ? min(exposed, BRIGHTEST_EXPOSED) : 0.0f; }
+FN float limit_exposed(float exposed) {
+    return exposed > 0.0f ? min(exposed, BRIGHTEST_EXPOSED) : 0.0f;
+}
 
 // Display-encoded colour in [0, 1] of `radiance` times `exposure_scale` (2^EV).
 FN vec3 display_colour(vec3 radiance, float exposure_scale) {

@@ -1,5 +1,6 @@
-// The environment map: an equirectangular picture of the sky, +Y up, its top row at the zenith, u = 0.5 towards -Z.
-// Radiance is bilinear between texel centres; the sampling density is constant in solid angle over each texel.
+// The environment map: an equirectangular picture of the sky, +Y up, its top row at the zenith, u = 0.5
+// towards -Z. Radiance is bilinear between texel centres; the sampling density is constant in solid angle
+// over each texel.
 #pragma once
 
 #include "shared/dialect.h"
@@ -15,9 +16,11 @@ FN vec2 environment_uv(vec3 direction) {
     return vec2(u, v);
 }
 
-// Rows between `row` and the nearer pole. Angles are measured from there: cosines near 1 would leave the first rows of
-// a large map a handful of distinct heights, and sines of angles near pi lose digits too.
-FN uint environment_rows_from_pole(uint row, uint height) { return min(row, height - 1u - row); }
+// Rows between `row` and the nearer pole. Angles are measured from there: cosines near 1 would leave the
+// first rows of a large map a handful of distinct heights, and sines of angles near pi lose digits too.
+FN uint environment_rows_from_pole(uint row, uint height) {
+    return min(row, height - 1u - row);
+}
 
 // A direction within texel (column, row), uniform in solid angle.
 FN vec3 environment_direction(uint column, uint row, uint width, uint height, vec2 u) {

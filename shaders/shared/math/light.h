@@ -1,7 +1,8 @@
 // Lights as the resampling sees them: a record, and what one sample of it sends to a point.
 //
-// Sample domains ("measure"): triangles by area, the environment by solid angle, punctual lights are a single point.
-// `IncidentLight::value` already holds the light's side of the geometry term in that measure, so for every kind
+// Sample domains ("measure"): triangles by area, the environment by solid angle, punctual lights are a single
+// point. `IncidentLight::value` already holds the light's side of the geometry term in that measure, so for
+// every kind
 //     reflected radiance = BRDF * max(0, n.wi) * value / pdf_in_measure.
 #pragma once
 
@@ -17,21 +18,23 @@ CONSTANT uint LIGHT_TRIANGLE = 3u;
 CONSTANT uint LIGHT_KIND_MASK = 7u;
 CONSTANT uint LIGHT_DOUBLE_SIDED = 8u;  // a triangle that emits on both sides
 CONSTANT uint LIGHT_TEXTURED = 16u;     // radiance is scaled by the material's emission map
-CONSTANT uint LIGHT_MIRRORED = 32u;     // a triangle whose transform turned it inside out: its lit side is the other
+CONSTANT uint LIGHT_MIRRORED =
+    32u;  // a triangle whose transform turned it inside out: its lit side is the other
 
 // The light index that stands for the environment map.
 CONSTANT uint LIGHT_ENVIRONMENT = 0xfffffffeu;
 
 // Row layout in `pack_light`. Positions are relative to the world's origin.
 struct Light {
-    vec3 position;   // triangle: first vertex
-    uint flags;      // kind and LIGHT_* bits
-    vec3 edge1;      // triangle: second vertex - first; spot, directional: unit direction of travel
-    uint instance;   // triangle: where it comes from
-    vec3 edge2;      // triangle: third vertex - first; spot: (angle scale, angle offset, 0)
+    vec3 position;  // triangle: first vertex
+    uint flags;     // kind and LIGHT_* bits
+    vec3 edge1;     // triangle: second vertex - first; spot, directional: unit direction of travel
+    uint instance;  // triangle: where it comes from
+    vec3 edge2;     // triangle: third vertex - first; spot: (angle scale, angle offset, 0)
     uint primitive;
-    vec3 radiance;   // triangle: W sr^-1 m^-2; point, spot: W/sr; directional: W/m^2
-    float range;     // point, spot: metres, 0 = unlimited
+    vec3 radiance;  // triangle: W sr^-1 m^-2; point, spot: W/sr; directional: W/m^2
+    float range;    // point, spot: metres, 0 = unlimited; LIGHT_TEXTURED: bits of the first row of its
+                    // EmissionMap
 };
 
 CONSTANT uint LIGHT_ROWS = 4u;
@@ -56,12 +59,42 @@ FN void pack_light(Light light, OUT(uvec4) row0, OUT(uvec4) row1, OUT(uvec4) row
     row3 = pack_row(light.radiance, floatBitsToUint(light.range));
 }
 
+// The emission map of a LIGHT_TEXTURED triangle, ready to be looked up: texture transform applied, its
+// texels' place known. These rows follow those of all lights in the same table.
+struct EmissionMap {
+    vec2 uv0;  // at the three vertices
+    vec2 uv1;
+    vec2 uv2;
+    uint first_texel;
+    uint size;   // width | height << 16
+    uint flags;  // wrap modes and SLOT_NEAREST, as in SlotRecord
+};
+
+CONSTANT uint EMISSION_MAP_ROWS = 3u;
+
+FN void pack_emission_map(EmissionMap m, OUT(uvec4) row0, OUT(uvec4) row1, OUT(uvec4) row2) {
+    row0 = pack_row4(vec4(m.uv0.x, m.uv0.y, m.uv1.x, m.uv1.y));
+    row1 = uvec4(floatBitsToUint(m.uv2.x), floatBitsToUint(m.uv2.y), m.first_texel, m.size);
+    row2 = uvec4(m.flags, 0u, 0u, 0u);
+}
+
+FN EmissionMap unpack_emission_map(uvec4 row0, uvec4 row1, uvec4 row2) {
+    EmissionMap m;
+    m.uv0 = vec2(uintBitsToFloat(row0.x), uintBitsToFloat(row0.y));
+    m.uv1 = vec2(uintBitsToFloat(row0.z), uintBitsToFloat(row0.w));
+    m.uv2 = vec2(uintBitsToFloat(row1.x), uintBitsToFloat(row1.y));
+    m.first_texel = row1.z;
+    m.size = row1.w;
+    m.flags = row2.x;
+    return m;
+}
+
 // One sample as a point sees it, before visibility.
 struct IncidentLight {
-    vec3 direction;      // unit, from the point to the light
-    float distance;      // metres; RAY_INFINITY for directional lights and the environment
-    vec3 value;          // see the head of this file; exactly 0 where nothing arrives
-    vec3 light_normal;   // unit normal of a triangle, on the side of the point; 0 for other kinds
+    vec3 direction;     // unit, from the point to the light
+    float distance;     // metres; RAY_INFINITY for directional lights and the environment
+    vec3 value;         // see the head of this file; exactly 0 where nothing arrives
+    vec3 light_normal;  // unit normal of a triangle, on the side of the point; 0 for other kinds
 };
 
 FN IncidentLight no_incident_light() {
@@ -83,7 +116,9 @@ FN float punctual_falloff(float distance, float range) {
     return falloff;
 }
 
-FN float triangle_area(Light light) { return 0.5f * length(cross(light.edge1, light.edge2)); }
+FN float triangle_area(Light light) {
+    return 0.5f * length(cross(light.edge1, light.edge2));
+}
 
 FN vec3 triangle_point(Light light, vec2 barycentrics) {
     return light.position + light.edge1 * barycentrics.x + light.edge2 * barycentrics.y;

@@ -5,10 +5,13 @@
 
 SHARED_BEGIN
 
-FN float sign_not_zero(float x) { return x >= 0.0f ? 1.0f : -1.0f; }
+FN float sign_not_zero(float x) {
+    return x >= 0.0f ? 1.0f : -1.0f;
+}
 
-// Unit vector to the octahedron's unfolded square, [-1, 1]^2 (Cigolle et al., "A Survey of Efficient Representations
-// for Independent Unit Vectors", JCGT 3(2), 2014). Kept in 32-bit floats: the round trip is good to 1e-6.
+// Unit vector to the octahedron's unfolded square, [-1, 1]^2 (Cigolle et al., "A Survey of Efficient
+// Representations for Independent Unit Vectors", JCGT 3(2), 2014). Kept in 32-bit floats: the round trip is
+// good to 1e-6.
 FN vec2 encode_octahedral(vec3 n) {
     float scale = 1.0f / (abs(n.x) + abs(n.y) + abs(n.z));
     vec2 p = vec2(n.x * scale, n.y * scale);
@@ -42,7 +45,8 @@ FN vec3 row_xyz(uvec4 row) {
 }
 
 FN vec4 row_xyzw(uvec4 row) {
-    return vec4(uintBitsToFloat(row.x), uintBitsToFloat(row.y), uintBitsToFloat(row.z), uintBitsToFloat(row.w));
+    return vec4(uintBitsToFloat(row.x), uintBitsToFloat(row.y), uintBitsToFloat(row.z),
+                uintBitsToFloat(row.w));
 }
 
 SHARED_END

@@ -1,4 +1,5 @@
-// Counter-based random numbers: a pure function of (pixel, frame, seed, dimension), the same bits on both sides.
+// Counter-based random numbers: a pure function of (pixel, frame, seed, dimension), the same bits on both
+// sides.
 #pragma once
 
 #include "shared/dialect.h"
@@ -12,7 +13,8 @@ struct RandomKey {
     uint seed;
 };
 
-// PCG4D: four 32-bit words to four (Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020).
+// PCG4D: four 32-bit words to four (Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT 9(3),
+// 2020).
 FN uvec4 hash_pcg4d(uvec4 v) {
     v = v * 1664525u + uvec4(1013904223u);
     v.x += v.y * v.w;
@@ -31,7 +33,9 @@ FN uvec4 hash_pcg4d(uvec4 v) {
 }
 
 // 24 random bits as a float in [0, 1): 1 itself never occurs.
-FN float float_from_bits(uint bits) { return float(bits >> 8u) * (1.0f / 16777216.0f); }
+FN float float_from_bits(uint bits) {
+    return float(bits >> 8u) * (1.0f / 16777216.0f);
+}
 
 // Four independent words of 32 random bits.
 FN uvec4 random_bits4(RandomKey key, uint dimension) {
@@ -41,11 +45,13 @@ FN uvec4 random_bits4(RandomKey key, uint dimension) {
 // Four independent numbers in [0, 1).
 FN vec4 random4(RandomKey key, uint dimension) {
     uvec4 bits = random_bits4(key, dimension);
-    return vec4(float_from_bits(bits.x), float_from_bits(bits.y), float_from_bits(bits.z), float_from_bits(bits.w));
+    return vec4(float_from_bits(bits.x), float_from_bits(bits.y), float_from_bits(bits.z),
+                float_from_bits(bits.w));
 }
 
-// The number that decides whether a surface of partial coverage (alpha BLEND) is there for this ray. `ray` tells the
-// rays of a pixel apart; the raster and the camera ray both use RAY_CAMERA and so agree on every layer.
+// The number that decides whether a surface of partial coverage (alpha BLEND) is there for this ray. `ray`
+// tells the rays of a pixel apart; the raster and the camera ray both use RAY_CAMERA and so agree on every
+// layer.
 FN float random_coverage(RandomKey key, uint ray, uint instance, uint primitive) {
     uvec4 bits = hash_pcg4d(uvec4(key.pixel, key.frame * 64u + ray, key.seed, 0x9e3779b9u));
     bits = hash_pcg4d(uvec4(bits.x, bits.y, instance, primitive));
@@ -53,10 +59,11 @@ FN float random_coverage(RandomKey key, uint ray, uint instance, uint primitive)
 }
 
 // Dimensions: each use has a range of its own, so that no two decisions share a number.
-CONSTANT uint DIMENSION_SELECT = 0u;         // direct light: final choice of the one sample
-CONSTANT uint DIMENSION_CANDIDATE = 16u;     // + candidate index
-CONSTANT uint DIMENSION_PIXEL = 4096u;       // reference: position within the pixel
-CONSTANT uint DIMENSION_BOUNCE = 8192u;      // reference: + 8 * bounce
+CONSTANT uint DIMENSION_SELECT = 0u;      // direct light: once a frame
+CONSTANT uint DIMENSION_CANDIDATE = 16u;  // + candidate index, below 1024
+CONSTANT uint DIMENSION_CHOICE = 2048u;   // + candidate index: whether it replaces the one before
+CONSTANT uint DIMENSION_PIXEL = 4096u;    // reference: position within the pixel
+CONSTANT uint DIMENSION_BOUNCE = 8192u;   // reference: + 8 * bounce
 CONSTANT uint RAY_CAMERA = 0u;
 CONSTANT uint RAY_SHADOW = 1u;
 CONSTANT uint RAY_BOUNCE = 2u;  // reference: + bounce

@@ -1,9 +1,10 @@
-// Weighted reservoirs: one sample kept out of a stream, each with probability in proportion to its resampling weight.
+// Weighted reservoirs: one sample kept out of a stream, each with probability in proportion to its resampling
+// weight.
 //
 // Source: Bitterli et al., "Spatiotemporal Reservoir Resampling for Real-Time Ray Tracing with Dynamic Direct
-// Lighting", 2020, algorithms 2 and 3; names as in Lin et al., "Generalized Resampled Importance Sampling", 2022.
-// A LiveReservoir is being filled; a Reservoir is finished and carries the contribution weight W, an unbiased estimate
-// of 1 / pdf of its sample.
+// Lighting", 2020, algorithms 2 and 3; names as in Lin et al., "Generalized Resampled Importance Sampling",
+// 2022. A LiveReservoir is being filled; a Reservoir is finished and carries the contribution weight W, an
+// unbiased estimate of 1 / pdf of its sample.
 #pragma once
 
 #include "shared/dialect.h"
@@ -51,8 +52,8 @@ FN Reservoir empty_reservoir() {
     return r;
 }
 
-// Offers a candidate with resampling weight w = m * target / pdf. `u` in [0, 1). A weight that is 0, negative or not
-// finite is passed over; returns false for the last two, so that the caller can count them.
+// Offers a candidate with resampling weight w = m * target / pdf. `u` in [0, 1). A weight that is 0, negative
+// or not finite is passed over; returns false for the last two, so that the caller can count them.
 FN bool offer_candidate(INOUT(LiveReservoir) r, LightSample candidate, float target, float weight, float u) {
     if (!is_finite(weight) || weight < 0.0f) return false;
     if (weight == 0.0f) return true;

@@ -9,10 +9,10 @@ SHARED_BEGIN
 
 // All that shading and rays need of a visible surface. Normals are unit and on the viewer's side.
 struct ShadingPoint {
-    vec3 position;          // relative to the world's origin, metres
-    float position_error;   // bound on its rounding error, metres; see ray_offset.h
+    vec3 position;         // relative to the world's origin, metres
+    float position_error;  // bound on its rounding error, metres; see ray_offset.h
     vec3 geometric_normal;
-    vec3 shading_normal;    // interpolated, normal-mapped
+    vec3 shading_normal;  // interpolated, normal-mapped
     SurfaceMaterial material;
 };
 
@@ -23,8 +23,8 @@ struct Surface {
     bool unlit;     // emission is the whole answer and holds for the camera alone
 };
 
-// Reflected radiance for one incident sample: BRDF * cosine * value. Divide by the sample's pdf. Light from behind the
-// true surface reflects nothing, whatever the shading normal says.
+// Reflected radiance for one incident sample: BRDF * cosine * value. Divide by the sample's pdf. Light from
+// behind the true surface reflects nothing, whatever the shading normal says.
 FN vec3 reflect_light(ShadingPoint p, Frame frame, vec3 view_local, IncidentLight incident) {
     if (dot(p.geometric_normal, incident.direction) <= 0.0f) return vec3(0.0f);
     vec3 light_local = to_local(frame, incident.direction);
@@ -36,6 +36,8 @@ FN vec3 reflect_light(ShadingPoint p, Frame frame, vec3 view_local, IncidentLigh
 }
 
 // The resampling target (p-hat): luminance of BRDF * Le * G, without visibility.
-FN float target_function(vec3 reflected) { return luminance(reflected); }
+FN float target_function(vec3 reflected) {
+    return luminance(reflected);
+}
 
 SHARED_END

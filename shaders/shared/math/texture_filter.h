@@ -1,6 +1,8 @@
-// Texture lookup by hand: wrap modes and bilinear weights at mip 0, the same arithmetic in shaders and on the CPU.
+// Texture lookup by hand: wrap modes and bilinear weights at mip 0, the same arithmetic in shaders and on the
+// CPU.
 //
-// Core GL cannot index samplers per pixel and llvmpipe has no bindless textures, so all texels live in one buffer.
+// Core GL cannot index samplers per pixel and llvmpipe has no bindless textures, so all texels live in one
+// buffer.
 #pragma once
 
 #include "shared/dialect.h"
@@ -28,8 +30,8 @@ FN int wrap_texel(int coordinate, int size, uint wrap) {
     return folded < size ? folded : period - 1 - folded;
 }
 
-// uv: (0,0) is the upper left corner of the upper left texel. Values far outside float's exact integers are folded
-// first, so that a wild coordinate gives some texel instead of undefined behaviour.
+// uv: (0,0) is the upper left corner of the upper left texel. Values far outside float's exact integers are
+// folded first, so that a wild coordinate gives some texel instead of undefined behaviour.
 FN TexelFootprint texel_footprint(vec2 uv, ivec2 size, uint wrap_u, uint wrap_v, bool nearest) {
     float x = uv.x * float(size.x);
     float y = uv.y * float(size.y);
@@ -49,8 +51,8 @@ FN TexelFootprint texel_footprint(vec2 uv, ivec2 size, uint wrap_u, uint wrap_v,
     int y0 = wrap_texel(int(cell_y), size.y, wrap_v);
     int y1 = wrap_texel(int(cell_y) + 1, size.y, wrap_v);
     TexelFootprint footprint;
-    footprint.indices = uvec4(uint(y0 * size.x + x0), uint(y0 * size.x + x1), uint(y1 * size.x + x0),
-                              uint(y1 * size.x + x1));
+    footprint.indices =
+        uvec4(uint(y0 * size.x + x0), uint(y0 * size.x + x1), uint(y1 * size.x + x0), uint(y1 * size.x + x1));
     footprint.weights = vec4((1.0f - fraction_x) * (1.0f - fraction_y), fraction_x * (1.0f - fraction_y),
                              (1.0f - fraction_x) * fraction_y, fraction_x * fraction_y);
     return footprint;

@@ -11,7 +11,8 @@ struct Frame {
     vec3 normal;
 };
 
-// An orthonormal frame around a unit normal (Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017).
+// An orthonormal frame around a unit normal (Duff et al., "Building an Orthonormal Basis, Revisited", JCGT
+// 6(1), 2017).
 FN Frame make_frame(vec3 normal) {
     float sign_z = normal.z >= 0.0f ? 1.0f : -1.0f;
     float a = -1.0f / (sign_z + normal.z);
@@ -38,8 +39,8 @@ FN vec3 sample_cosine_hemisphere(vec2 u) {
     return vec3(radius * cos(phi), radius * sin(phi), sqrt(max(0.0f, 1.0f - u.x)));
 }
 
-// Uniform barycentrics (weights of the second and third vertex). Pdf, area: 1 / area. The unit square is folded along
-// its diagonal (Heitz, "A Low-Distortion Map Between Triangle and Square", 2019).
+// Uniform barycentrics (weights of the second and third vertex). Pdf, area: 1 / area. The unit square is
+// folded along its diagonal (Heitz, "A Low-Distortion Map Between Triangle and Square", 2019).
 FN vec2 sample_triangle(vec2 u) {
     float first = u.x;
     float second = u.y;

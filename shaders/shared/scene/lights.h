@@ -1,12 +1,15 @@
-// The scene's lights: loading, drawing and evaluating samples. One text for shaders and the CPU; see scene/surface.h.
+// The scene's lights: loading, drawing and evaluating samples. One text for shaders and the CPU; see
+// scene/surface.h.
 //
 // Also needs, where it is included:
-//     uvec4 fetch_light_row(uint), uvec4 fetch_light_alias_row(uint), vec4 fetch_environment_texel(uint) (radiance, pmf),
-//     uvec4 fetch_environment_alias_row(uint), uint get_light_count(), uvec2 get_environment_size() (0 = no sky)
+//     uvec4 fetch_light_row(uint), uvec4 fetch_light_alias_row(uint), vec4 fetch_environment_texel(uint)
+//     (radiance, pmf), uvec4 fetch_environment_alias_row(uint), uint get_light_count(), uvec2
+//     get_environment_size() (0 = no sky)
 // and the constants SCENE_HAS_ENVIRONMENT, SCENE_HAS_PUNCTUAL_LIGHTS, SCENE_HAS_TRIANGLE_LIGHTS,
 // SCENE_HAS_TEXTURED_LIGHTS.
 
-// Share of candidates that go to the environment where there are other lights too (Bitterli et al. 2020, section 5).
+// Share of candidates that go to the environment where there are other lights too (Bitterli et al. 2020,
+// section 5).
 CONSTANT_MEMBER float ENVIRONMENT_SHARE = 0.25f;
 
 // A drawn sample and its density: pmf of the light times density in the light's measure (see math/light.h).
@@ -26,41 +29,61 @@ FN bool is_triangle(Light light) {
     return SCENE_HAS_TRIANGLE_LIGHTS && (light.flags & LIGHT_KIND_MASK) == LIGHT_TRIANGLE;
 }
 
-FN bool has_environment() { return SCENE_HAS_ENVIRONMENT && get_environment_size().x > 0u; }
+FN bool has_environment() {
+    return SCENE_HAS_ENVIRONMENT && get_environment_size().x > 0u;
+}
 
-// ---- Evaluation ---------------------------------------------------------------------------------------------------
+// ---- Evaluation
+// ---------------------------------------------------------------------------------------------------
 
 // Sky radiance along a unit direction; 0 without a sky.
 FN vec3 load_environment(vec3 direction) {
     uvec2 size = get_environment_size();
     if (!SCENE_HAS_ENVIRONMENT || size.x == 0u) return vec3(0.0f);
-    TexelFootprint f = texel_footprint(environment_uv(direction), ivec2(int(size.x), int(size.y)), WRAP_REPEAT,
-                                       WRAP_CLAMP, false);
+    TexelFootprint f = texel_footprint(environment_uv(direction), ivec2(int(size.x), int(size.y)),
+                                       WRAP_REPEAT, WRAP_CLAMP, false);
     return vec3(fetch_environment_texel(f.indices.x)) * f.weights.x +
            vec3(fetch_environment_texel(f.indices.y)) * f.weights.y +
            vec3(fetch_environment_texel(f.indices.z)) * f.weights.z +
            vec3(fetch_environment_texel(f.indices.w)) * f.weights.w;
 }
 
-// Solid-angle density with which the environment is sampled along `direction`, given that it is sampled at all.
+// Solid-angle density with which the environment is sampled along `direction`, given that it is sampled at
+// all.
 FN float environment_pdf_solid_angle(vec3 direction) {
     uvec2 size = get_environment_size();
     if (size.x == 0u) return 0.0f;
     vec2 uv = environment_uv(direction);
     uint column = min(uint(uv.x * float(size.x)), size.x - 1u);
     uint row = min(uint(uv.y * float(size.y)), size.y - 1u);
-    return fetch_environment_texel(row * size.x + column).w / environment_texel_solid_angle(row, size.x, size.y);
+    return fetch_environment_texel(row * size.x + column).w /
+           environment_texel_solid_angle(row, size.x, size.y);
+}
+
+// Value of an emission map on a triangle light, from the rows that follow the lights (see pack_emission_map).
+FN vec3 sample_emission_map(EmissionMap map, vec2 barycentrics) {
+    vec2 uv = map.uv0 * (1.0f - barycentrics.x - barycentrics.y) + map.uv1 * barycentrics.x +
+              map.uv2 * barycentrics.y;
+    ivec2 size = ivec2(int(map.size & 0xffffu), int(map.size >> 16u));
+    bool nearest = (map.flags & SLOT_NEAREST) != 0u;
+    TexelFootprint f = texel_footprint(uv, size, map.flags & 3u, (map.flags >> 2u) & 3u, nearest);
+    return vec3(fetch_texel(map.first_texel + f.indices.x)) * f.weights.x +
+           vec3(fetch_texel(map.first_texel + f.indices.y)) * f.weights.y +
+           vec3(fetch_texel(map.first_texel + f.indices.z)) * f.weights.z +
+           vec3(fetch_texel(map.first_texel + f.indices.w)) * f.weights.w;
 }
 
 // Radiance that the triangle light emits at `barycentrics`, emission map included.
 FN vec3 load_triangle_radiance(Light light, vec2 barycentrics) {
     vec3 radiance = light.radiance;
     if (!SCENE_HAS_TEXTURED_LIGHTS) return radiance;
-    // A loop that runs at most once: a software GPU skips loops that no lane enters, but never the side of an `if`.
+    // A loop that runs at most once: a software GPU skips loops that no lane enters, but never the side of an
+    // `if`.
     for (uint textured = light.flags & LIGHT_TEXTURED; textured != 0u; textured = 0u) {
-        InstanceRecord i = load_instance(light.instance);
-        VertexExtras extras = interpolate_extras(load_vertex_indices(i, light.primitive), barycentrics);
-        radiance = radiance * vec3(sample_slot(load_slot(i.material, SLOT_EMISSION), extras.uv0, extras.uv1));
+        uint row = floatBitsToUint(light.range);
+        EmissionMap map =
+            unpack_emission_map(fetch_light_row(row), fetch_light_row(row + 1u), fetch_light_row(row + 2u));
+        radiance = radiance * sample_emission_map(map, barycentrics);
     }
     return radiance;
 }
@@ -72,8 +95,8 @@ FN float load_light_error(LightSample drawn) {
     if ((light.flags & LIGHT_KIND_MASK) != LIGHT_TRIANGLE) return 0.0f;
     InstanceRecord i = load_instance(light.instance);
     uvec3 vertices = load_vertex_indices(i, light.primitive);
-    return position_error_bound(largest_absolute_term(i, load_position_os(vertices.x), load_position_os(vertices.y),
-                                                      load_position_os(vertices.z)));
+    return position_error_bound(largest_absolute_term(
+        i, load_position_os(vertices.x), load_position_os(vertices.y), load_position_os(vertices.z)));
 }
 
 // What `drawn` sends to `point`, before visibility.
@@ -93,19 +116,17 @@ FN IncidentLight load_incident_light(LightSample drawn, vec3 point) {
     return incident_from_punctual(light, point);
 }
 
-// ---- Drawing ------------------------------------------------------------------------------------------------------
+// ---- Drawing
+// ------------------------------------------------------------------------------------------------------
 
 // A place on light `index`, which was chosen with probability `pmf`.
 FN LightCandidate draw_on_light(uint index, float pmf, vec2 u) {
     LightCandidate c;
     c.drawn.light = index;
-    c.drawn.uv = vec2(0.0f);
-    c.pdf = pmf;
     Light light = load_light(index);
-    if (is_triangle(light)) {
-        c.drawn.uv = sample_triangle(u);
-        c.pdf = ratio_or_zero(pmf, triangle_area(light));
-    }
+    bool triangle = is_triangle(light);
+    c.drawn.uv = triangle ? sample_triangle(u) : vec2(0.0f);
+    c.pdf = triangle ? ratio_or_zero(pmf, triangle_area(light)) : pmf;
     return c;
 }
 

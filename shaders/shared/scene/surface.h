@@ -1,22 +1,24 @@
-// The scene at a hit: from (instance, primitive, barycentrics) to a surface, one text for shaders and for the CPU.
+// The scene at a hit: from (instance, primitive, barycentrics) to a surface, one text for shaders and for the
+// CPU.
 //
-// Not a header of its own right: it is included where these functions exist, which fetch from texture buffers in GLSL
-// (lib/scene_buffers.glsl) and from vectors in C++, where it forms the body of a class (world/scene_access.h):
+// Not a header of its own right: it is included where these functions exist, which fetch from texture buffers
+// in GLSL (lib/scene_buffers.glsl) and from vectors in C++, where it forms the body of a class
+// (world/scene_access.h):
 //     uvec4 fetch_vertex_row(uint), uvec3 fetch_triangle(uint), uvec4 fetch_instance_row(uint),
 //     uvec4 fetch_material_row(uint), vec4 fetch_texel(uint)
-// and the constants SCENE_HAS_TEXTURES, SCENE_HAS_NORMAL_MAPS: what the scene lacks is compiled out, because a software
-// GPU runs both sides of a branch.
+// and the constants SCENE_HAS_TEXTURES, SCENE_HAS_NORMAL_MAPS: what the scene lacks is compiled out, because
+// a software GPU runs both sides of a branch.
 
 FN InstanceRecord load_instance(uint instance) {
     uint row = instance * INSTANCE_ROWS;
-    return unpack_instance(fetch_instance_row(row), fetch_instance_row(row + 1u), fetch_instance_row(row + 2u),
-                           fetch_instance_row(row + 3u));
+    return unpack_instance(fetch_instance_row(row), fetch_instance_row(row + 1u),
+                           fetch_instance_row(row + 2u), fetch_instance_row(row + 3u));
 }
 
 FN MaterialRecord load_material(uint material) {
     uint row = material * MATERIAL_ROWS;
-    return unpack_material(fetch_material_row(row), fetch_material_row(row + 1u), fetch_material_row(row + 2u),
-                           fetch_material_row(row + 3u));
+    return unpack_material(fetch_material_row(row), fetch_material_row(row + 1u),
+                           fetch_material_row(row + 2u), fetch_material_row(row + 3u));
 }
 
 FN SlotRecord load_slot(uint material, uint slot) {
@@ -26,7 +28,8 @@ FN SlotRecord load_slot(uint material, uint slot) {
 
 FN vec3 transform_point(InstanceRecord i, vec3 p) {
     vec4 h = vec4(p, 1.0f);
-    return vec3(dot(i.world_from_object[0], h), dot(i.world_from_object[1], h), dot(i.world_from_object[2], h));
+    return vec3(dot(i.world_from_object[0], h), dot(i.world_from_object[1], h),
+                dot(i.world_from_object[2], h));
 }
 
 FN vec3 transform_vector(InstanceRecord i, vec3 v) {
@@ -34,8 +37,8 @@ FN vec3 transform_vector(InstanceRecord i, vec3 v) {
                 dot(vec3(i.world_from_object[2]), v));
 }
 
-// Normals go with the cofactor matrix, which is the inverse transpose up to a positive scale once the sign of a
-// mirroring transform is taken out.
+// Normals go with the cofactor matrix, which is the inverse transpose up to a positive scale once the sign of
+// a mirroring transform is taken out.
 FN vec3 transform_normal(InstanceRecord i, vec3 n) {
     vec3 x = vec3(i.world_from_object[0]);
     vec3 y = vec3(i.world_from_object[1]);
@@ -44,7 +47,8 @@ FN vec3 transform_normal(InstanceRecord i, vec3 n) {
     return (i.flags & INSTANCE_MIRRORED) != 0u ? -result : result;
 }
 
-// ---- Textures -----------------------------------------------------------------------------------------------------
+// ---- Textures
+// -----------------------------------------------------------------------------------------------------
 
 // KHR_texture_transform: translation * rotation * scale.
 FN vec2 slot_uv(SlotRecord slot, vec2 uv0, vec2 uv1) {
@@ -62,8 +66,8 @@ FN vec2 slot_uv(SlotRecord slot, vec2 uv0, vec2 uv1) {
 FN vec4 sample_slot(SlotRecord slot, vec2 uv0, vec2 uv1) {
     if (!SCENE_HAS_TEXTURES || (slot.flags & SLOT_PRESENT) == 0u) return vec4(1.0f);
     ivec2 size = ivec2(int(slot.size & 0xffffu), int(slot.size >> 16u));
-    TexelFootprint f = texel_footprint(slot_uv(slot, uv0, uv1), size, slot.flags & 3u, (slot.flags >> 2u) & 3u,
-                                       (slot.flags & SLOT_NEAREST) != 0u);
+    TexelFootprint f = texel_footprint(slot_uv(slot, uv0, uv1), size, slot.flags & 3u,
+                                       (slot.flags >> 2u) & 3u, (slot.flags & SLOT_NEAREST) != 0u);
     vec4 result = fetch_texel(slot.first_texel + f.indices.x) * f.weights.x;
     if ((slot.flags & SLOT_NEAREST) != 0u) return result;
     return result + fetch_texel(slot.first_texel + f.indices.y) * f.weights.y +
@@ -71,7 +75,8 @@ FN vec4 sample_slot(SlotRecord slot, vec2 uv0, vec2 uv1) {
            fetch_texel(slot.first_texel + f.indices.w) * f.weights.w;
 }
 
-// ---- Vertices -----------------------------------------------------------------------------------------------------
+// ---- Vertices
+// -----------------------------------------------------------------------------------------------------
 
 FN float interpolate1(float a, float b, float c, vec2 barycentrics) {
     return a * (1.0f - barycentrics.x - barycentrics.y) + b * barycentrics.x + c * barycentrics.y;
@@ -85,7 +90,9 @@ FN uvec3 load_vertex_indices(InstanceRecord instance, uint primitive) {
     return fetch_triangle(instance.first_triangle + primitive) + uvec3(instance.first_vertex);
 }
 
-FN vec3 load_position_os(uint vertex) { return row_xyz(fetch_vertex_row(vertex * VERTEX_ROWS)); }
+FN vec3 load_position_os(uint vertex) {
+    return row_xyz(fetch_vertex_row(vertex * VERTEX_ROWS));
+}
 
 FN vec2 load_uv0(uint vertex) {
     uint row = vertex * VERTEX_ROWS;
@@ -100,7 +107,9 @@ FN vec2 interpolate_uv0(uvec3 vertices, vec2 barycentrics) {
 }
 
 // uv1 and colour share a row.
-FN vec2 unpack_uv1(uvec4 row3) { return vec2(uintBitsToFloat(row3.x), uintBitsToFloat(row3.y)); }
+FN vec2 unpack_uv1(uvec4 row3) {
+    return vec2(uintBitsToFloat(row3.x), uintBitsToFloat(row3.y));
+}
 
 FN vec4 unpack_color(uvec4 row3) {
     vec2 rg = unpackUnorm2x16(row3.z);
@@ -129,7 +138,8 @@ FN VertexExtras interpolate_extras(uvec3 vertices, vec2 barycentrics) {
     return extras;
 }
 
-// ---- Coverage -----------------------------------------------------------------------------------------------------
+// ---- Coverage
+// -----------------------------------------------------------------------------------------------------
 
 // Opacity of the base colour at a point, for MASK and BLEND materials.
 FN float load_opacity(uint instance, uint primitive, vec2 barycentrics) {
@@ -147,7 +157,8 @@ FN bool is_covered(uint material_flags, float alpha_cutoff, float opacity, float
     return true;
 }
 
-// ---- The surface --------------------------------------------------------------------------------------------------
+// ---- The surface
+// --------------------------------------------------------------------------------------------------
 
 FN float largest_absolute_term(InstanceRecord i, vec3 p0, vec3 p1, vec3 p2) {
     vec4 extent = vec4(max(abs(p0), max(abs(p1), abs(p2))), 1.0f);
@@ -193,7 +204,8 @@ FN SurfaceMaterial evaluate_material(MaterialRecord m, uint material, VertexExtr
     return result;
 }
 
-// The surface at `barycentrics` (weights of the second and third vertex), seen along `direction` (unit, towards it).
+// The surface at `barycentrics` (weights of the second and third vertex), seen along `direction` (unit,
+// towards it).
 FN Surface evaluate_surface(uint instance, uint primitive, vec2 barycentrics, vec3 direction) {
     InstanceRecord i = load_instance(instance);
     MaterialRecord m = load_material(i.material);
@@ -217,7 +229,8 @@ FN Surface evaluate_surface(uint instance, uint primitive, vec2 barycentrics, ve
     bool front = dot(geometric, direction) <= 0.0f;
     s.point.geometric_normal = front ? geometric : -geometric;
     s.point.shading_normal = front ? normal : -normal;
-    if (dot(s.point.shading_normal, s.point.geometric_normal) <= 0.0f) s.point.shading_normal = s.point.geometric_normal;
+    if (dot(s.point.shading_normal, s.point.geometric_normal) <= 0.0f)
+        s.point.shading_normal = s.point.geometric_normal;
 
     vec3 base_color = vec3(m.base_color) * vec3(extras.color) *
                       vec3(sample_slot(load_slot(i.material, SLOT_BASE_COLOR), extras.uv0, extras.uv1));
@@ -226,7 +239,8 @@ FN Surface evaluate_surface(uint instance, uint primitive, vec2 barycentrics, ve
     bool emits = front || (m.flags & MATERIAL_DOUBLE_SIDED) != 0u;
     s.emission = emits ? m.emission : vec3(0.0f);
     if (max_component(s.emission) > 0.0f) {
-        s.emission = s.emission * vec3(sample_slot(load_slot(i.material, SLOT_EMISSION), extras.uv0, extras.uv1));
+        s.emission =
+            s.emission * vec3(sample_slot(load_slot(i.material, SLOT_EMISSION), extras.uv0, extras.uv1));
     }
     if (s.unlit) s.emission = base_color;
     return s;

@@ -1,4 +1,5 @@
-// The shared functions behind one door each, four words in rows to one row: compiled as GLSL and as C++ and compared.
+// The shared functions behind one door each, four words in rows to one row: compiled as GLSL and as C++ and
+// compared.
 #pragma once
 
 #include "shared/interface/records.h"
@@ -57,7 +58,8 @@ FN uvec4 run_reservoir(uvec4 a, uvec4 b) {
         if (offer_candidate(live, candidate, float(i + 1), weights[i], u[i])) sound |= 1u << uint(i);
     }
     Reservoir done = finish_reservoir(live, 3.0f);
-    return uvec4(done.chosen.light, sound, floatBitsToUint(live.weight_sum), floatBitsToUint(done.contribution_weight));
+    return uvec4(done.chosen.light, sound, floatBitsToUint(live.weight_sum),
+                 floatBitsToUint(done.contribution_weight));
 }
 
 FN uvec4 run_light_record(uvec4 a, uvec4 b, uvec4 c, uvec4 d) {
@@ -95,7 +97,8 @@ FN uvec4 run_camera_ray(uvec4 a, uvec4 b, uvec4 c, uvec4 d) {
     camera.up = row_xyz(c);
     camera.forward = row_xyz(d);
     camera.orthographic = (a.w & 1u) != 0u;
-    PixelRay ray = camera_ray(camera, vec2(float(b.w & 1023u) + 0.5f, float(c.w & 511u) + 0.5f), vec2(1024.0f, 512.0f));
+    PixelRay ray =
+        camera_ray(camera, vec2(float(b.w & 1023u) + 0.5f, float(c.w & 511u) + 0.5f), vec2(1024.0f, 512.0f));
     return pack_row4(vec4(ray.direction.x, ray.direction.y, ray.direction.z, ray.origin.x));
 }
 
@@ -149,7 +152,8 @@ FN uvec4 run_kernel(uint kernel, uvec4 a, uvec4 b, uvec4 c, uvec4 d) {
     if (kernel == KERNEL_PUNCTUAL_LIGHT) return run_punctual_light(a, b, c, d);
     if (kernel == KERNEL_CAMERA_RAY) return run_camera_ray(a, b, c, d);
     if (kernel == KERNEL_BRDF) return run_brdf(a, b, c);
-    if (kernel == KERNEL_BRDF_SAMPLE) return pack_row(sample_brdf(kernel_material(c), row_xyz(a), row_xyz(d)), 0u);
+    if (kernel == KERNEL_BRDF_SAMPLE)
+        return pack_row(sample_brdf(kernel_material(c), row_xyz(a), row_xyz(d)), 0u);
     if (kernel == KERNEL_SKY_DIRECTION) return run_sky_direction(a, b);
     if (kernel == KERNEL_SKY_UV) return pack_row4(vec4(environment_uv(row_xyz(a)), 0.0f, 0.0f));
     if (kernel == KERNEL_ALIAS) return run_alias(a, b);
