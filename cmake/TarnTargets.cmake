@@ -1,4 +1,4 @@
-# One small library per folder: third-party libraries are PRIVATE, so that a forbidden include does not compile.
+# One small library per folder: it links what it may use; third-party libraries are PRIVATE to the one that hides them.
 
 # tarn_library(NAME [PUBLIC libs...] [PRIVATE libs...]): a static library of all .cpp files of this folder.
 # Includes are written from the layers' root: "core/error.h", "shared/math/brdf.h".

@@ -10,7 +10,7 @@ namespace tarn {
 
 struct PlanEntry {
     std::string define;  // shader define
-    std::string reason;  // "7 of 20 materials have textures"
+    std::string reason;  // "7 texture slots in use"
 };
 
 struct FramePlan {

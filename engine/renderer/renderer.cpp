@@ -96,6 +96,7 @@ std::map<std::string, std::uint64_t> Renderer::read_counters() const {
     const std::vector<std::uint32_t> values = counters_.download<std::uint32_t>();
     return {{"bad_weights", values[COUNTER_BAD_WEIGHT]},
             {"bad_radiance", values[COUNTER_BAD_RADIANCE]},
+            {"bad_reservoirs", values[COUNTER_BAD_RESERVOIR]},
             {"rejected_rays", rejected_rays_}};
 }
 

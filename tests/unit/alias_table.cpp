@@ -42,9 +42,10 @@ void expect_probabilities(const std::vector<double>& weights) {
     for (const double w : weights) sum += w;
     const std::vector<double> probability = enumerate_table(table);
     for (std::size_t i = 0; i < weights.size(); ++i) {
-        EXPECT_NEAR(table.pmf[i], weights[i] / sum, 1e-7 * weights[i] / sum) << i;
-        // Thresholds are rounded to single precision: 2^-24 of a bucket.
-        EXPECT_NEAR(probability[i], weights[i] / sum, 0x1p-22 / double(weights.size())) << i;
+        // What is drawn is what the table says is drawn.
+        EXPECT_NEAR(table.pmf[i], probability[i], 1e-7 * probability[i]) << i;
+        // Thresholds are rounded up to the grid of the random numbers: 2^-24 of each bucket at most.
+        EXPECT_NEAR(probability[i], weights[i] / sum, 0x1p-24) << i;
     }
 }
 
@@ -55,6 +56,17 @@ TEST(AliasTable, EnumerationOfItsBucketsGivesTheWeights) {
     expect_probabilities({0.0, 1.0, 0.0, 0.0, 5.0});
     expect_probabilities({1e-300, 1e-300});
     expect_probabilities(random_weights(1000, 1));
+}
+
+TEST(AliasTable, ADimWeightIsDrawnAsOftenAsItsProbabilitySays) {
+    std::vector<double> weights(1000, 1.0);
+    weights[500] = 1e-10;
+    const AliasTable table = build_alias_table(weights);
+    const AliasBucket bucket = unpack_alias_bucket(table.rows[500]);
+    // Of the 2^24 values of u in [0, 1), those below the threshold.
+    const double drawn = std::ceil(bucket.threshold * 0x1p24) * 0x1p-24 / 1000.0;
+    EXPECT_GT(drawn, 0.0);
+    EXPECT_NEAR(table.pmf[500], drawn, 1e-7 * drawn);
 }
 
 TEST(AliasTable, OneWeightThatOutshinesAMillionOthersKeepsItsShare) {

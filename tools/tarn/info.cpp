@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "scene/gltf_import.h"
 #include "scene/pose.h"
+#include "scene_options.h"
 
 namespace tarn {
 namespace {
@@ -225,7 +226,7 @@ void write_json(const std::filesystem::path& path, const Json& json) {
 }
 
 void run_info(const InfoOptions& options) {
-    const Scene scene = load_gltf(options.scene, {.scene_index = options.scene_index});
+    const Scene scene = load_gltf(resolve_scene_path(options.scene), {.scene_index = options.scene_index});
     const Json info = describe_scene(options, scene);
     print_table(info);
     if (!options.json.empty()) write_json(options.json, info);

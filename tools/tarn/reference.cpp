@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
-#include <csignal>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -12,6 +10,7 @@
 
 #include "commands.h"
 #include "core/error.h"
+#include "core/interrupt.h"
 #include "image_io/file.h"
 #include "image_io/image_io.h"
 #include "scene_options.h"
@@ -25,25 +24,6 @@ struct ReferenceOptions {
     std::filesystem::path out;
     std::filesystem::path json;
     std::string pixel = "centre";
-};
-
-std::atomic<bool> cancel_requested{false};
-
-// While it lives, the first Ctrl-C asks for an early end and the second one kills.
-class CancelOnInterrupt {
-  public:
-    CancelOnInterrupt() {
-        struct sigaction action {};
-        action.sa_handler = [](int) { cancel_requested = true; };
-        action.sa_flags = int(SA_RESETHAND);
-        sigaction(SIGINT, &action, &previous_);
-    }
-    ~CancelOnInterrupt() { sigaction(SIGINT, &previous_, nullptr); }
-    CancelOnInterrupt(const CancelOnInterrupt&) = delete;
-    CancelOnInterrupt& operator=(const CancelOnInterrupt&) = delete;
-
-  private:
-    struct sigaction previous_ {};
 };
 
 std::vector<float> take_channel(const Image& image, int channel) {
@@ -111,14 +91,14 @@ void run_reference_command(ReferenceOptions& options) {
     settings.seed = options.scene.seed;
     settings.camera = choose_camera(options.scene, loaded.scene, loaded.world);
     settings.box_pixel_filter = options.pixel == "box";
-    settings.cancel = &cancel_requested;
-    const CancelOnInterrupt interrupt;
+    settings.cancel = &interrupt_flag();
     const ReferenceResult result = render_reference(loaded.world, *tracer, settings);
     write_picture(options.out, result);
     if (!options.json.empty()) write_json(options, result);
     fmt::print(
-        "{}: {} samples a pixel{}, relative error {:.4f}, {:.1f} Mrays in {:.1f} s, {} samples not finite\n",
-        options.out.string(), result.spp, result.cancelled ? " (interrupted)" : "", result.relative_error,
+        "{}: {} samples a pixel{}, relative error {}, {:.1f} Mrays in {:.1f} s, {} samples not finite\n",
+        options.out.string(), result.spp, result.cancelled ? " (interrupted)" : "",
+        result.spp > 1 ? fmt::format("{:.4f}", result.relative_error) : "unknown from one",
         1e-6 * double(result.rays), result.seconds, result.non_finite);
 }
 

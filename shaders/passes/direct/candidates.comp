@@ -104,6 +104,7 @@ void main() {
     s.live = empty_live_reservoir();
     offer_all(s);
     Reservoir reservoir = finish_reservoir(s.live, float(s.count));
+    if (s.live.weight_sum > 0.0f && reservoir.contribution_weight == 0.0f) count_event(COUNTER_BAD_RESERVOIR);
     RayRecord ray = inactive_ray();
     if (reservoir.contribution_weight > 0.0f) {
         IncidentLight incident = load_incident_light(reservoir.chosen, s.point.position);

@@ -19,9 +19,10 @@ struct FrameBlock {
     uvec4 frame_lights;         // light count; environment width, height; RIS candidates
 };
 
-// Places in the counter buffer; names in renderer/counters.cpp.
-CONSTANT uint COUNTER_BAD_WEIGHT = 0u;    // candidate weights that were negative or not finite
-CONSTANT uint COUNTER_BAD_RADIANCE = 1u;  // pixels whose radiance was not finite and became black
-CONSTANT uint COUNTER_COUNT = 2u;
+// Places in the counter buffer; names in Renderer::read_counters.
+CONSTANT uint COUNTER_BAD_WEIGHT = 0u;     // candidate weights that were negative or not finite
+CONSTANT uint COUNTER_BAD_RADIANCE = 1u;   // pixels whose radiance was not finite and became black
+CONSTANT uint COUNTER_BAD_RESERVOIR = 2u;  // reservoirs emptied because their weight was not finite
+CONSTANT uint COUNTER_COUNT = 3u;
 
 SHARED_END
