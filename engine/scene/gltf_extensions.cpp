@@ -41,7 +41,9 @@ void list_extensions(GltfDocument& document, Scene& scene) {
             scene.extensions_honoured.push_back(name);
         } else {
             scene.extensions_ignored.push_back(name);
-            document.warn("extension " + name + " is not supported, it is ignored");
+            const bool approximated = name == "KHR_materials_transmission";
+            document.warn("extension " + name + " is not supported, " +
+                          (approximated ? "light goes straight through instead" : "it is ignored"));
         }
     }
 }

@@ -93,6 +93,19 @@ void read_specular(const tinygltf::Material& source, int index, GltfDocument& do
     }
 }
 
+// Glass, roughly: what KHR_materials_transmission lets through goes straight on, as if the surface were not
+// there for that share of the rays. Without it, lamps behind glass would light nothing. Masks keep their
+// mode, and a factor that comes with a texture is left out, since the texture may well be black.
+void read_transmission(const tinygltf::Material& source, Material& material) {
+    const auto* transmission = find_extension(source.extensions, "KHR_materials_transmission");
+    if (transmission == nullptr || transmission->Has("transmissionTexture")) return;
+    const float factor = unit_interval(number_or(transmission, "transmissionFactor", 0.0));
+    if (factor == 0.0f || material.alpha_mode == AlphaMode::MASK) return;
+    if (material.alpha_mode == AlphaMode::OPAQUE) material.base_color.a = 1.0f;
+    material.alpha_mode = AlphaMode::BLEND;
+    material.base_color.a *= 1.0f - factor;
+}
+
 Material read_material(const tinygltf::Material& source, int index, GltfDocument& document) {
     Material material;
     material.name = source.name;
@@ -111,6 +124,7 @@ Material read_material(const tinygltf::Material& source, int index, GltfDocument
     material.emission_map = read_slot(source.emissiveTexture, document);
     read_emission(source, material);
     read_specular(source, index, document, material);
+    read_transmission(source, material);
     return material;
 }
 

@@ -88,6 +88,18 @@ TEST(GltfMaterials, ExtensionsChangeEmissionSpecularAndShading) {
     EXPECT_TRUE(material.unlit);
 }
 
+TEST(GltfMaterials, TransmissionBecomesPartialCoverage) {
+    GltfBuilder gltf;
+    const nlohmann::json glass = {{"KHR_materials_transmission", {{"transmissionFactor", 0.75}}}};
+    gltf.push("materials",
+              {{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.5}}}}, {"extensions", glass}});
+    gltf.push("materials", {{"alphaMode", "MASK"}, {"extensions", glass}});
+    const Scene scene = gltf.load();
+    EXPECT_EQ(scene.materials[0].alpha_mode, AlphaMode::BLEND);
+    EXPECT_EQ(scene.materials[0].base_color.a, 0.25f);
+    EXPECT_EQ(scene.materials[1].alpha_mode, AlphaMode::MASK);
+}
+
 TEST(GltfMaterials, TextureTransformsMoveTheirSlotAlone) {
     const nlohmann::json transform = {
         {"offset", {0.25, 0.5}}, {"rotation", 1.5}, {"scale", {2, 3}}, {"texCoord", 1}};

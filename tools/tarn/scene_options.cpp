@@ -99,6 +99,11 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
         ->type_name("NAME|INDEX|x,y,z,tx,ty,tz,fov_deg");
     command.add_option("--environment", options.environment, "Sky: equirectangular radiance")
         ->type_name("F.hdr|F.exr");
+    command
+        .add_option("--sky", options.sky,
+                    "Even sky of this radiance (default: 1 where the scene has no light, else 0)")
+        ->check(CLI::Range(0.0f, 1e6f))
+        ->excludes(command.get_option("--environment"));
     command.add_option("--seed", options.seed, "Seed of all random numbers")->capture_default_str();
     command.add_option("--threads", options.threads, "Worker threads (0: one per core)")
         ->check(CLI::Range(0, 1024))
@@ -116,11 +121,22 @@ std::filesystem::path resolve_scene_path(const std::filesystem::path& scene) {
     return std::filesystem::exists(own) ? own : scene;
 }
 
+namespace {
+
+Image even_sky(float radiance) {
+    Image image(2, 2, 3);
+    image.values.assign(image.values.size(), radiance);
+    return image;
+}
+
+}  // namespace
+
 LoadedScene load_scene(const SceneOptions& options) {
     LoadedScene loaded;
     loaded.scene = load_gltf(resolve_scene_path(options.scene), GltfOptions{options.scene_index});
     WorldOptions world_options;
     world_options.time_s = options.time_s;
+    if (options.sky) world_options.environment = even_sky(*options.sky);
     if (options.environment) world_options.environment = read_radiance(*options.environment);
     loaded.world = build_world(loaded.scene, world_options);
     return loaded;

@@ -18,6 +18,7 @@ struct SceneOptions {
     int height = 360;
     std::string camera;  // empty: the scene's first, or a view of the whole
     std::optional<std::filesystem::path> environment;
+    std::optional<float> sky;  // even sky of this radiance; an environment map goes first
     std::uint32_t seed = 0;
     int threads = 0;       // 0: one per core
     double time_s = -1.0;  // < 0: the rest pose
