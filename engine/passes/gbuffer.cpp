@@ -65,10 +65,8 @@ PassRecorder& read_gbuffer(PassRecorder& pass, const GBuffer& gbuffer) {
         .read(UNIT_SPECULAR, gbuffer.specular);
 }
 
-GBufferPass::GBufferPass(ProgramLibrary& programs, const GpuScene& gpu_scene, int width_px, int height_px,
-                         std::vector<std::string> scene_defines)
+GBufferPass::GBufferPass(ProgramLibrary& programs, const GpuScene& gpu_scene, int width_px, int height_px)
     : programs_(programs),
-      scene_defines_(std::move(scene_defines)),
       width_px_(width_px),
       height_px_(height_px),
       seen_("gbuffer/seen", width_px, height_px, GL_RG32UI),
@@ -125,7 +123,7 @@ void GBufferPass::collect_draws(const World& world, const CameraRecord& camera) 
     }
 }
 
-void GBufferPass::issue_draws(const World&, bool coverage) const {
+void GBufferPass::issue_draws(bool coverage) const {
     std::size_t offset_bytes = 0;
     for (const Bucket& bucket : buckets_) {
         if (bucket.coverage == coverage && !bucket.commands.empty()) {
@@ -138,7 +136,8 @@ void GBufferPass::issue_draws(const World&, bool coverage) const {
     }
 }
 
-GBuffer GBufferPass::record(FrameRecorder& frame, const World& world, const CameraRecord& camera) {
+GBuffer GBufferPass::record(FrameRecorder& frame, const World& world, const CameraRecord& camera,
+                            const std::vector<std::string>& scene_defines) {
     collect_draws(world, camera);
     seen_.clear(glm::uvec4(INVALID_INDEX));
     depth_.clear(glm::vec4(0.0f));
@@ -149,11 +148,11 @@ GBuffer GBufferPass::record(FrameRecorder& frame, const World& world, const Came
     vertex_array_.bind();
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_->id());
     const auto draw = [&](bool coverage) {
-        std::vector<std::string> defines = scene_defines_;
+        std::vector<std::string> defines = scene_defines;
         if (coverage) defines.push_back("TARN_COVERAGE");
         frame.pass(coverage ? "gbuffer/raster_coverage" : "gbuffer/raster")
             .write_target(target_, {&seen_})
-            .draw(programs_.graphics("gbuffer/raster", defines), [&] { issue_draws(world, coverage); });
+            .draw(programs_.graphics("gbuffer/raster", defines), [&] { issue_draws(coverage); });
     };
     const auto has_draws = [&](bool coverage) {
         return std::any_of(buckets_.begin(), buckets_.end(), [&](const Bucket& bucket) {
@@ -172,7 +171,7 @@ GBuffer GBufferPass::record(FrameRecorder& frame, const World& world, const Came
         .write_image(2, diffuse_)
         .write_image(3, specular_)
         .write_image(4, emission_)
-        .dispatch(programs_.compute("gbuffer/resolve", scene_defines_), width_px_, height_px_);
+        .dispatch(programs_.compute("gbuffer/resolve", scene_defines), width_px_, height_px_);
     return {seen_, position_, normals_, diffuse_, specular_, emission_};
 }
 

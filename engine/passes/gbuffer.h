@@ -33,12 +33,13 @@ struct GBufferStatistics {
 
 class GBufferPass {
   public:
-    // `scene_defines`: what the scene has (plan/frame_plan.h).
-    GBufferPass(ProgramLibrary& programs, const GpuScene& gpu_scene, int width_px, int height_px,
-                std::vector<std::string> scene_defines);
+    GBufferPass(ProgramLibrary& programs, const GpuScene& gpu_scene, int width_px, int height_px);
+    ~GBufferPass();
 
-    // Draws what `camera` sees of `world` and resolves it to surfaces.
-    GBuffer record(FrameRecorder& frame, const World& world, const CameraRecord& camera);
+    // Draws what `camera` sees of `world` and resolves it to surfaces. `scene_defines`: what the scene has
+    // (plan/frame_plan.h).
+    GBuffer record(FrameRecorder& frame, const World& world, const CameraRecord& camera,
+                   const std::vector<std::string>& scene_defines);
 
     const GBufferStatistics& statistics() const { return statistics_; }
 
@@ -46,10 +47,9 @@ class GBufferPass {
     struct Bucket;
 
     void collect_draws(const World& world, const CameraRecord& camera);
-    void issue_draws(const World& world, bool coverage) const;
+    void issue_draws(bool coverage) const;
 
     ProgramLibrary& programs_;
-    std::vector<std::string> scene_defines_;
     int width_px_;
     int height_px_;
     Texture2D seen_;
@@ -65,9 +65,6 @@ class GBufferPass {
     std::unique_ptr<Buffer> commands_;
     std::vector<Bucket> buckets_;
     GBufferStatistics statistics_;
-
-  public:
-    ~GBufferPass();
 };
 
 }  // namespace tarn

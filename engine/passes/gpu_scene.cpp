@@ -32,7 +32,8 @@ GpuScene::GpuScene(const World& world)
 void GpuScene::upload_lights(const WorldLights& lights) {
     light_revision_ = lights.revision;
     const std::size_t size_bytes = lights.rows.size() * sizeof(glm::uvec4);
-    if (light_rows_ && light_rows_->holds(size_bytes)) {
+    if (light_rows_ && light_rows_->holds(size_bytes) &&
+        light_alias_->holds(lights.alias_rows.size() * sizeof(glm::uvec4))) {
         light_rows_->upload(lights.rows);
         light_alias_->upload(lights.alias_rows);
         return;

@@ -29,10 +29,10 @@ std::size_t count_specular(const World& world) {
     return count;
 }
 
-std::size_t count_textured_lights(const WorldLights& lights) {
+std::size_t count_lights_with(const WorldLights& lights, std::uint32_t flag) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < lights.count; ++i) {
-        if ((lights.rows[i * LIGHT_ROWS].w & LIGHT_TEXTURED) != 0u) ++count;
+        if ((lights.rows[i * LIGHT_ROWS].w & flag) != 0u) ++count;
     }
     return count;
 }
@@ -62,7 +62,10 @@ FramePlan make_plan(const World& world) {
     add("TARN_ENVIRONMENT", std::size_t(world.environment.width) * world.environment.height, "texels of sky");
     add("TARN_PUNCTUAL_LIGHTS", lights.punctual_count, "punctual lights");
     add("TARN_TRIANGLE_LIGHTS", lights.count - lights.punctual_count, "emissive triangles");
-    add("TARN_TEXTURED_LIGHTS", count_textured_lights(lights), "emissive triangles with a texture");
+    add("TARN_TEXTURED_LIGHTS", count_lights_with(lights, LIGHT_TEXTURED),
+        "emissive triangles with a texture");
+    add("TARN_COVERED_LIGHTS", count_lights_with(lights, LIGHT_COVERED),
+        "emissive triangles of partial coverage");
     return plan;
 }
 

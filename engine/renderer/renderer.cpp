@@ -36,11 +36,13 @@ Renderer::Renderer(const World& world, const RayTracer& tracer, int width_px, in
       width_px_(width_px),
       height_px_(height_px),
       plan_(make_plan(world)),
-      defines_(join(plan_.defines(), std::move(extra_defines))),
+      extra_defines_(std::move(extra_defines)),
+      defines_(join(plan_.defines(), extra_defines_)),
+      planned_lights_(world.lights.revision),
       gpu_scene_(world),
       frame_block_("frame/block", sizeof(FrameBlock), BufferUse::DYNAMIC),
       counters_("frame/counters", COUNTER_COUNT * sizeof(std::uint32_t), BufferUse::DEVICE),
-      gbuffer_(programs_, gpu_scene_, width_px, height_px, defines_),
+      gbuffer_(programs_, gpu_scene_, width_px, height_px),
       direct_candidates_(programs_, width_px, height_px),
       visibility_(std::size_t(width_px) * std::size_t(height_px)),
       direct_shade_(programs_, width_px, height_px) {
@@ -49,6 +51,11 @@ Renderer::Renderer(const World& world, const RayTracer& tracer, int width_px, in
 
 void Renderer::update() {
     gpu_scene_.update(world_);
+    // A light may have come or gone, and with it what the shaders need.
+    if (world_.lights.revision == planned_lights_) return;
+    planned_lights_ = world_.lights.revision;
+    plan_ = make_plan(world_);
+    defines_ = join(plan_.defines(), extra_defines_);
 }
 
 void Renderer::upload_frame_block(const FrameInput& input) {
@@ -72,7 +79,7 @@ FrameOutput Renderer::render(const FrameInput& input) {
     upload_frame_block(input);
     gpu_scene_.bind();
 
-    const GBuffer gbuffer = gbuffer_.record(frame_, world_, input.camera);
+    const GBuffer gbuffer = gbuffer_.record(frame_, world_, input.camera, defines_);
     const Candidates candidates =
         direct_candidates_.record(frame_, gbuffer, input.settings.direct, counters_, defines_);
     const Visibility visible = visibility_.record(frame_, tracer_, candidates.rays, shadow_key);

@@ -69,7 +69,9 @@ class Renderer {
     int width_px_;
     int height_px_;
     FramePlan plan_;
+    std::vector<std::string> extra_defines_;
     std::vector<std::string> defines_;
+    std::uint64_t planned_lights_;  // revision of the lights that the plan saw
     ProgramLibrary programs_;
     GpuScene gpu_scene_;
     FrameRecorder frame_;

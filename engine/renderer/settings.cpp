@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "core/error.h"
 
@@ -25,8 +26,9 @@ void Setting::parse(RenderSettings& settings, const std::string& text) const {
     }
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !(value >= minimum && value <= maximum)) {
-        throw Error("--{}: '{}' is not a number from {} to {}", name, text, minimum, maximum);
+    if (error != std::errc() || end != text.data() + text.size() || !(value >= minimum && value <= maximum) ||
+        value != std::floor(value)) {
+        throw Error("--{}: '{}' is not a whole number from {} to {}", name, text, minimum, maximum);
     }
     set(settings, value);
 }

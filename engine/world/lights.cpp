@@ -31,7 +31,7 @@ struct LightList {
             const std::size_t first = rows.size();
             rows.resize(first + EMISSION_MAP_ROWS);
             pack_emission_map(map, rows[first], rows[first + 1], rows[first + 2]);
-            rows[light * LIGHT_ROWS + 3].w = std::uint32_t(first);
+            rows[light * LIGHT_ROWS + 3].w = std::uint32_t(first) + EMISSION_MAP_TAG;
         }
     }
 };
@@ -112,8 +112,8 @@ Light make_triangle(const World& world, SceneAccess& access, std::uint32_t insta
     const InstanceRecord record = access.load_instance(instance);
     const glm::uvec3 vertices = access.load_vertex_indices(record, primitive);
     const glm::vec3 p0 = access.transform_point(record, access.load_position_os(vertices.x));
-    glm::vec3 p1 = access.transform_point(record, access.load_position_os(vertices.y));
-    glm::vec3 p2 = access.transform_point(record, access.load_position_os(vertices.z));
+    const glm::vec3 p1 = access.transform_point(record, access.load_position_os(vertices.y));
+    const glm::vec3 p2 = access.transform_point(record, access.load_position_os(vertices.z));
     Light light{};
     light.flags = LIGHT_TRIANGLE;
     if ((material.flags & MATERIAL_DOUBLE_SIDED) != 0u) light.flags |= LIGHT_DOUBLE_SIDED;
@@ -121,6 +121,7 @@ Light make_triangle(const World& world, SceneAccess& access, std::uint32_t insta
     // barycentrics' sake.
     if (world.instances[instance].mirrored) light.flags |= LIGHT_MIRRORED;
     if (textured) light.flags |= LIGHT_TEXTURED;
+    if ((material.flags & (MATERIAL_ALPHA_MASK | MATERIAL_ALPHA_BLEND)) != 0u) light.flags |= LIGHT_COVERED;
     light.position = p0;
     light.edge1 = p1 - p0;
     light.edge2 = p2 - p0;

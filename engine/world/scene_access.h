@@ -39,6 +39,7 @@ class SceneAccess {
     static constexpr bool SCENE_HAS_PUNCTUAL_LIGHTS = true;
     static constexpr bool SCENE_HAS_TRIANGLE_LIGHTS = true;
     static constexpr bool SCENE_HAS_TEXTURED_LIGHTS = true;
+    static constexpr bool SCENE_HAS_COVERED_LIGHTS = true;
 
 #include "shared/scene/lights.h"
 #include "shared/scene/surface.h"

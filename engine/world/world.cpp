@@ -40,6 +40,7 @@ World build_world(const Scene& scene, const WorldOptions& options) {
 }
 
 void update_world(World& world, const Scene& scene, double time_s) {
+    if (scene.animations.empty()) return;
     const Pose pose = evaluate_pose(scene, time_s);
     place_instances(world, scene, pose);
     rebuild_lights(world, scene, pose);

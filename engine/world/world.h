@@ -94,8 +94,9 @@ struct WorldOptions {
 // Flattens a scene. Scenes without any light and without an environment get an even sky of radiance 1.
 World build_world(const Scene& scene, const WorldOptions& options = {});
 
-// Moves what `time_s` moves: instance rows, deformed vertices, lights. Revisions grow where something
-// changed.
+// Moves what `time_s` moves: instance rows, deformed vertices, lights. Revisions grow where something may
+// have changed; a scene without animations stays as it is. `bounds` and `origin_ws` stay those of the first
+// moment.
 void update_world(World& world, const Scene& scene, double time_s);
 
 // The camera at `index` of the scene, in this pose; nullopt when there is no such camera.

@@ -42,6 +42,11 @@
 #else
 #define SCENE_HAS_TEXTURED_LIGHTS false
 #endif
+#ifdef TARN_COVERED_LIGHTS
+#define SCENE_HAS_COVERED_LIGHTS true
+#else
+#define SCENE_HAS_COVERED_LIGHTS false
+#endif
 
 layout(binding = UNIT_VERTEX_ROWS) uniform usamplerBuffer scene_vertex_rows;
 layout(binding = UNIT_TRIANGLES) uniform usamplerBuffer scene_triangles;

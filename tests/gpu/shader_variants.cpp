@@ -30,6 +30,10 @@ std::vector<Defines> list_scene_variants() {
             for (const Defines& punctual : {Defines{}, Defines{"TARN_PUNCTUAL_LIGHTS"}}) {
                 for (const Defines& triangle : triangles)
                     result.push_back(textures + environment + punctual + triangle);
+                // The rest stands alone: it changes what the others have in common.
+                result.push_back(textures + environment + punctual + Defines{"TARN_LAMBERT_ONLY"});
+                result.push_back(textures + environment + punctual +
+                                 Defines{"TARN_TRIANGLE_LIGHTS", "TARN_COVERED_LIGHTS"});
             }
         }
     }

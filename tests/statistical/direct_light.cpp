@@ -90,7 +90,7 @@ class DirectLight : public testing::TestWithParam<const char*> {
         return found;
     }
 
-    // Pixels within one radius of the lit side of a triangle that is drawn less than 64 times a pixel in
+    // Pixels within one radius of the lit side of a triangle that is drawn less than 16 times a pixel in
     // all.
     // Nearer than that the square of the distance varies strongly over the triangle.
     static std::set<std::uint32_t> find_rare_events() {
@@ -161,9 +161,11 @@ class DirectLight : public testing::TestWithParam<const char*> {
         }
         for (const auto& [name, value] : renderer.read_counters()) EXPECT_EQ(value, 0u) << name;
         const TileTest test = samples.test(reference_, SIGNIFICANCE);
-        std::printf("%s: smallest p %.3g, threshold %.3g; worst tile at (%d, %d), %d px: %.6g against %.6g\n",
-                    GetParam(), test.min_p_value, test.threshold, test.x, test.y, test.size_px, test.mean,
-                    test.reference_mean);
+        std::printf(
+            "%s: smallest p %.3g, threshold %.3g, %.0f %% of tests pooled; worst tile at (%d, %d), %d px: "
+            "%.6g against %.6g\n",
+            GetParam(), test.min_p_value, test.threshold, 100.0 * test.pooled_fraction, test.x, test.y,
+            test.size_px, test.mean, test.reference_mean);
         return test;
     }
 

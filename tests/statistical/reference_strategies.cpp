@@ -67,6 +67,38 @@ TEST(ReferenceStrategies, mis_agrees_with_light_sampling_alone_and_with_brdf_sam
     }
 }
 
+// A floor under a glowing veil: emission through partial coverage.
+ReferenceResult render_glowing_veil(AlphaMode mode, float alpha, LightStrategy strategy, std::uint32_t seed) {
+    ToyScene toy;
+    Material veil = emissive_material({5.0f, 4.0f, 3.0f});
+    veil.double_sided = true;
+    veil.alpha_mode = mode;
+    veil.base_color.w = alpha;
+    toy.add_quad(toy.add_material(lambert_material(glm::vec3(0.5f))), {-2, 0, -2}, {0, 0, 4}, {4, 0, 0});
+    toy.add_quad(toy.add_material(veil), {-1, 1, -1}, {0, 0, 2}, {2, 0, 0});
+    const World world = build_world(toy.scene);
+    ReferenceSettings s = small_settings(world, {0, 0.8, 0.5}, {0, 0, 0}, 40.0);
+    s.spp = 1024;
+    s.direct_only = true;
+    s.strategy = strategy;
+    s.seed = seed;
+    return run_reference(world, s);
+}
+
+TEST(ReferenceStrategies, a_glowing_veil_lights_as_much_as_it_covers_for_every_strategy) {
+    const ReferenceResult whole = render_glowing_veil(AlphaMode::OPAQUE, 1.0f, LightStrategy::MIS, 1);
+    for (const auto strategy : {LightStrategy::LIGHTS_ONLY, LightStrategy::BRDF_ONLY, LightStrategy::MIS}) {
+        const ReferenceResult brdf = render_glowing_veil(AlphaMode::BLEND, 0.4f, LightStrategy::BRDF_ONLY, 2);
+        const TileTest veil = compare_images(render_glowing_veil(AlphaMode::BLEND, 0.4f, strategy, 3), brdf);
+        EXPECT_TRUE(veil.passes) << int(strategy) << ": " << describe(veil);
+        const TileTest kept = compare_images(render_glowing_veil(AlphaMode::MASK, 0.6f, strategy, 4), whole);
+        EXPECT_TRUE(kept.passes) << int(strategy) << ": " << describe(kept);
+        EXPECT_EQ(render_glowing_veil(AlphaMode::MASK, 0.4f, strategy, 5).radiance.pixel(16, 16)[0], 0.0f);
+    }
+    const ReferenceResult veil = render_glowing_veil(AlphaMode::BLEND, 0.4f, LightStrategy::MIS, 6);
+    EXPECT_FALSE(compare_images(veil, whole).passes);
+}
+
 TEST(ReferenceStrategies, one_seed_gives_the_same_bits_for_any_number_of_threads) {
     const World world = make_box_world();
     ReferenceSettings s = box_settings(world);

@@ -39,9 +39,10 @@ std::filesystem::path default_path_file() {
     return std::filesystem::path(TARN_FLYTHROUGH_DIR) / "lantern_court.json";
 }
 
-// Every how manieth frame is taken so that `count` of `frames` are.
-int stride_for(int frames, int count) {
-    return count > 0 ? std::max(1, frames / count) : frames + 1;
+// Whether `frame` is one of `count` that are spread evenly over `frames`, each in the middle of its stretch.
+bool is_chosen(int frame, int frames, int count) {
+    const auto stretch = [&](int f) { return (2ll * f * count + frames) / (2ll * frames); };
+    return count >= frames || stretch(frame) != stretch(frame - 1);
 }
 
 std::string frame_name(const char* stem, int frame, const char* extension) {
@@ -116,8 +117,6 @@ void run_flythrough(FlythroughCommand& command) {
     RenderSession session(command.options);
     Renderer& renderer = session.renderer();
     const double aspect = double(renderer.width_px()) / renderer.height_px();
-    const int picture_stride = stride_for(command.frames, command.pictures);
-    const int measure_stride = stride_for(command.frames, command.measured);
 
     RunTotals totals;
     std::vector<Errors> measured;
@@ -135,9 +134,8 @@ void run_flythrough(FlythroughCommand& command) {
         input.settings = command.options.settings;
         const FrameOutput output = renderer.render(input);
         totals.add(output);
-        // Measured in the middle of each stretch: the first and the last frame are rarely typical.
-        const bool measure_now = frame % measure_stride == measure_stride / 2;
-        if (frame % picture_stride == 0 || measure_now) {
+        const bool measure_now = is_chosen(frame, command.frames, command.measured);
+        if (is_chosen(frame, command.frames, command.pictures) || measure_now) {
             const Image radiance = renderer.read_radiance(output.radiance);
             if (!exposure_ev) exposure_ev = choose_exposure(command.options, radiance);
             write_png(std::filesystem::path(command.out) / frame_name("frame", frame, "png"),

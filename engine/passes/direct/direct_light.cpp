@@ -1,13 +1,22 @@
 #include "passes/direct/direct_light.h"
 
+#include "gl/handle.h"
 #include "shared/interface/bindings.h"
 #include "shared/math/reservoir.h"
 
 namespace tarn {
 namespace {
 
+// Size of a table with `rows` rows a pixel. Error where a driver's storage block cannot hold it.
 std::size_t rows_size_bytes(int width_px, int height_px, std::size_t rows) {
-    return std::size_t(width_px) * std::size_t(height_px) * rows * sizeof(glm::uvec4);
+    const std::size_t pixel_bytes = rows * sizeof(glm::uvec4);
+    const std::size_t limit = std::size_t(get_gl_limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE)) / pixel_bytes;
+    const std::size_t pixels = std::size_t(width_px) * std::size_t(height_px);
+    if (pixels > limit) {
+        throw Error("a picture of {} x {} has {} pixels, the driver's storage blocks hold {}", width_px,
+                    height_px, pixels, limit);
+    }
+    return pixels * pixel_bytes;
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ CONSTANT uint LIGHT_TRIANGLE = 3u;
 CONSTANT uint LIGHT_KIND_MASK = 7u;
 CONSTANT uint LIGHT_DOUBLE_SIDED = 8u;  // a triangle that emits on both sides
 CONSTANT uint LIGHT_TEXTURED = 16u;     // radiance is scaled by the material's emission map
+CONSTANT uint LIGHT_COVERED = 64u;      // a triangle of partial coverage (alpha MASK or BLEND)
 CONSTANT uint LIGHT_MIRRORED =
     32u;  // a triangle whose transform turned it inside out: its lit side is the other
 
@@ -33,8 +34,7 @@ struct Light {
     vec3 edge2;     // triangle: third vertex - first; spot: (angle scale, angle offset, 0)
     uint primitive;
     vec3 radiance;  // triangle: W sr^-1 m^-2; point, spot: W/sr; directional: W/m^2
-    float range;    // point, spot: metres, 0 = unlimited; LIGHT_TEXTURED: bits of the first row of its
-                    // EmissionMap
+    float range;    // point, spot: metres, 0 = unlimited; LIGHT_TEXTURED: place of its EmissionMap
 };
 
 CONSTANT uint LIGHT_ROWS = 4u;
@@ -71,6 +71,9 @@ struct EmissionMap {
 };
 
 CONSTANT uint EMISSION_MAP_ROWS = 3u;
+// Added to the row's number where it travels in `range`, so that its bits are those of a normal float: a GPU
+// may take small numbers for denormal ones and flush them to 0.
+CONSTANT uint EMISSION_MAP_TAG = 0x40000000u;
 
 FN void pack_emission_map(EmissionMap m, OUT(uvec4) row0, OUT(uvec4) row1, OUT(uvec4) row2) {
     row0 = pack_row4(vec4(m.uv0.x, m.uv0.y, m.uv1.x, m.uv1.y));

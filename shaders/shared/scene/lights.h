@@ -6,7 +6,7 @@
 //     (radiance, pmf), uvec4 fetch_environment_alias_row(uint), uint get_light_count(), uvec2
 //     get_environment_size() (0 = no sky)
 // and the constants SCENE_HAS_ENVIRONMENT, SCENE_HAS_PUNCTUAL_LIGHTS, SCENE_HAS_TRIANGLE_LIGHTS,
-// SCENE_HAS_TEXTURED_LIGHTS.
+// SCENE_HAS_TEXTURED_LIGHTS, SCENE_HAS_COVERED_LIGHTS.
 
 // Share of candidates that go to the environment where there are other lights too (Bitterli et al. 2020,
 // section 5).
@@ -73,14 +73,24 @@ FN vec3 sample_emission_map(EmissionMap map, vec2 barycentrics) {
            vec3(fetch_texel(map.first_texel + f.indices.w)) * f.weights.w;
 }
 
-// Radiance that the triangle light emits at `barycentrics`, emission map included.
+// Share of rays that meet the triangle light at `barycentrics`: shadow rays end before it and cannot tell.
+FN float load_light_coverage(Light light, vec2 barycentrics) {
+    MaterialRecord m = load_material(load_instance(light.instance).material);
+    float opacity = load_opacity(light.instance, light.primitive, barycentrics);
+    if ((m.flags & MATERIAL_ALPHA_MASK) != 0u) return opacity >= m.alpha_cutoff ? 1.0f : 0.0f;
+    return clamp(opacity, 0.0f, 1.0f);
+}
+
+// Mean radiance that the triangle light emits at `barycentrics`, emission map and coverage included.
 FN vec3 load_triangle_radiance(Light light, vec2 barycentrics) {
     vec3 radiance = light.radiance;
-    if (!SCENE_HAS_TEXTURED_LIGHTS) return radiance;
-    // A loop that runs at most once: a software GPU skips loops that no lane enters, but never the side of an
+    // Loops that run at most once: a software GPU skips loops that no lane enters, but never the side of an
     // `if`.
-    for (uint textured = light.flags & LIGHT_TEXTURED; textured != 0u; textured = 0u) {
-        uint row = floatBitsToUint(light.range);
+    uint covered = SCENE_HAS_COVERED_LIGHTS ? light.flags & LIGHT_COVERED : 0u;
+    for (; covered != 0u; covered = 0u) radiance = radiance * load_light_coverage(light, barycentrics);
+    uint textured = SCENE_HAS_TEXTURED_LIGHTS ? light.flags & LIGHT_TEXTURED : 0u;
+    for (; textured != 0u; textured = 0u) {
+        uint row = floatBitsToUint(light.range) - EMISSION_MAP_TAG;
         EmissionMap map =
             unpack_emission_map(fetch_light_row(row), fetch_light_row(row + 1u), fetch_light_row(row + 2u));
         radiance = radiance * sample_emission_map(map, barycentrics);
