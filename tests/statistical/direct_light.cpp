@@ -91,8 +91,8 @@ class DirectLight : public testing::TestWithParam<const char*> {
     }
 
     // Pixels within one radius of the lit side of a triangle that is drawn less than 16 times a pixel in
-    // all.
-    // Nearer than that the square of the distance varies strongly over the triangle.
+    // all. Nearer than that the square of the distance varies strongly over the triangle. Both limits were
+    // set after results were seen: 64 draws and three radii left out 16 % of the picture.
     static std::set<std::uint32_t> find_rare_events() {
         Renderer renderer(scene_->world, *scene_->tracer, WIDTH_PX, HEIGHT_PX);
         FrameInput input;

@@ -125,6 +125,7 @@ nlohmann::json make_report(const RenderOptions& options, RenderSession& session,
     const double p50 = totals.timings.frame_quantile_ms(0.5), p95 = totals.timings.frame_quantile_ms(0.95);
     return {{"frame_ms", {{"median", p50}, {"p95", p95}, {"frames", totals.timings.frame_count()}}},
             {"passes", passes},
+            // The renderer finds surfaces by rasterizing: it traces no closest hits.
             {"rays", {{"shadow", totals.shadow_rays}, {"closest", 0}}},
             {"counters", session.renderer().read_counters()},
             {"machine", session.describe_machine()},
