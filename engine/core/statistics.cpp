@@ -115,6 +115,15 @@ double RunningMoments::variance_of_mean() const {
     return count_ < 2 ? 0.0 : variance() / double(count_);
 }
 
+double quantile(std::vector<double> values, double q) {
+    if (values.empty()) return 0.0;
+    std::sort(values.begin(), values.end());
+    const double position = q * double(values.size() - 1);
+    const auto lower = std::size_t(std::floor(position));
+    const std::size_t upper = std::min(lower + 1, values.size() - 1);
+    return values[lower] + (values[upper] - values[lower]) * (position - double(lower));
+}
+
 double normal_cdf(double z) {
     return 0.5 * std::erfc(-z / std::sqrt(2.0));
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace tarn {
 
@@ -25,6 +26,9 @@ class RunningMoments {
     double mean_ = 0;
     double squared_deviations_ = 0;
 };
+
+// The q-quantile of `values`, interpolated between neighbours, 0 <= q <= 1; 0 where there are none.
+double quantile(std::vector<double> values, double q);
 
 // P(Z <= z) for a standard normal Z; relative precision holds in the lower tail.
 double normal_cdf(double z);

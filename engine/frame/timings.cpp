@@ -1,22 +1,8 @@
 #include "frame/timings.h"
 
-#include <algorithm>
-#include <cmath>
+#include "core/statistics.h"
 
 namespace tarn {
-namespace {
-
-double quantile(std::vector<double> values, double q) {
-    if (values.empty()) return 0.0;
-    std::sort(values.begin(), values.end());
-    const double position = q * double(values.size() - 1);
-    const std::size_t lower = std::size_t(std::floor(position));
-    const std::size_t upper = std::min(lower + 1, values.size() - 1);
-    return values[lower] + (values[upper] - values[lower]) * (position - double(lower));
-}
-
-}  // namespace
-
 void TimingLog::add(const FrameTimings& timings) {
     frame_ms_.push_back(timings.frame_ms);
     for (const PassTiming& pass : timings.passes) {

@@ -11,6 +11,7 @@ void add_info_command(CLI::App& app);
 void add_render_command(CLI::App& app);
 void add_reference_command(CLI::App& app);
 void add_compare_command(CLI::App& app);
+void add_bench_command(CLI::App& app);
 void add_flythrough_command(CLI::App& app);
 void add_view_command(CLI::App& app);
 

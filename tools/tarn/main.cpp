@@ -17,6 +17,7 @@ int run(int argc, char** argv) {
     add_render_command(app);
     add_reference_command(app);
     add_compare_command(app);
+    add_bench_command(app);
     add_flythrough_command(app);
     add_view_command(app);
     try {

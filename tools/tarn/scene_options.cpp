@@ -92,7 +92,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
             "--size", [&options](const std::string& text) { parse_size(text, options); },
             "Size of the picture, px")
         ->type_name("WxH")
-        ->default_str("640x360");
+        ->default_str(fmt::format("{}x{}", options.width, options.height));
     command
         .add_option("--camera", options.camera,
                     "Which camera (default: the scene's first, or a view of the whole)")

@@ -1,0 +1,109 @@
+#include "bench/bench_run.h"
+
+#include "core/error.h"
+#include "core/log.h"
+#include "core/statistics.h"
+
+namespace tarn {
+namespace {
+
+constexpr int TIMED_FRAMES = 3;
+// Frame numbers of different cells never meet: the same seed gives each its own random numbers.
+constexpr std::uint32_t FRAMES_PER_CELL = 1u << 20;
+constexpr std::uint32_t CALIBRATION_FRAME = 1u << 30;
+
+double time_frame_ms(FrameSource& source, std::size_t method, int warm_up_frames,
+                     const RenderSettings& settings) {
+    std::vector<double> ms;
+    for (int i = 0; i < warm_up_frames + TIMED_FRAMES; ++i) {
+        const RenderedFrame frame =
+            source.render(method, settings, 0, CALIBRATION_FRAME + std::uint32_t(i), i == 0);
+        if (i >= warm_up_frames) ms.push_back(frame.timings.frame_ms);
+    }
+    return quantile(ms, 0.5);
+}
+
+nlohmann::json note_of(const Cell& cell) {
+    nlohmann::json settings;
+    for (const Setting& setting : setting_table()) settings[setting.name] = setting.get(cell.fit.settings);
+    return {{"frames", cell.fit.frames}, {"expected_ms", cell.fit.expected_ms}, {"settings", settings}};
+}
+
+TimeFit read_fit(const nlohmann::json& note) {
+    TimeFit fit;
+    fit.frames = note.at("frames");
+    fit.expected_ms = note.at("expected_ms");
+    for (const Setting& setting : setting_table())
+        setting.set(fit.settings, note.at("settings").at(setting.name));
+    return fit;
+}
+
+std::string cell_name(const Cell& cell) {
+    return cell.budget < 0 ? fmt::format("method{}_curve", cell.method)
+                           : fmt::format("method{}_budget{}", cell.method, cell.budget);
+}
+
+Cell plan_cell(const BenchPlan& plan, std::size_t method_index, int budget, FrameSource& source) {
+    const Method& method = plan.methods[method_index];
+    if (budget < 0) return {method_index, budget, {method.settings, plan.frames, 0.0}};
+    const auto timer = [&](const RenderSettings& settings) {
+        return time_frame_ms(source, method_index, method.warm_up_frames, settings);
+    };
+    return {method_index, budget, fit_budget(method, plan.budgets_ms[std::size_t(budget)], timer)};
+}
+
+SequenceRequest request_for(const BenchPlan& plan, const Cell& cell, std::uint32_t seed) {
+    SequenceRequest request;
+    request.method = cell.method;
+    request.settings = cell.fit.settings;
+    request.seed = seed;
+    request.first_frame = FRAMES_PER_CELL * std::uint32_t(cell.budget + 1);
+    request.warm_up_frames = plan.methods[cell.method].warm_up_frames;
+    request.frames = cell.fit.frames;
+    request.with_curve = cell.budget < 0;
+    return request;
+}
+
+}  // namespace
+
+std::string unit_name(const Cell& cell, std::uint32_t seed) {
+    return fmt::format("{}_seed{}", cell_name(cell), seed);
+}
+
+std::vector<Cell> plan_cells(const BenchPlan& plan, FrameSource& source, const WorkFolder& work) {
+    std::vector<Cell> cells;
+    for (std::size_t method = 0; method < plan.methods.size(); ++method) {
+        time_frame_ms(source, method, 0, plan.methods[method].settings);  // compiles the shaders
+        for (int budget = -1; budget < int(plan.budgets_ms.size()); ++budget) {
+            Cell cell{method, budget, {}};
+            const nlohmann::json note = work.load_note(cell_name(cell));
+            if (note.is_null()) {
+                cell = plan_cell(plan, method, budget, source);
+                work.save_note(cell_name(cell), note_of(cell));
+            } else {
+                cell.fit = read_fit(note);
+            }
+            cells.push_back(cell);
+        }
+    }
+    return cells;
+}
+
+void measure_cells(const BenchPlan& plan, const std::vector<Cell>& cells, FrameSource& source,
+                   const Truth& truth, const WorkFolder& work, const std::atomic<bool>& cancel) {
+    Progress progress("measuring", std::uint64_t(plan.seeds) * cells.size());
+    std::uint64_t done = 0;
+    for (int k = 0; k < plan.seeds; ++k) {
+        const std::uint32_t seed = plan.first_seed + std::uint32_t(k);
+        for (const Cell& cell : cells) {
+            if (cancel) throw Error("interrupted; the same command goes on where it stopped");
+            const std::string name = unit_name(cell, seed);
+            if (!work.load_measure(name)) {
+                work.save(name, measure_sequence(source, truth, request_for(plan, cell, seed)));
+            }
+            progress.update(++done);
+        }
+    }
+}
+
+}  // namespace tarn

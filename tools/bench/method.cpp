@@ -1,0 +1,121 @@
+#include "bench/method.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace tarn {
+namespace {
+
+// One line is all that a new method needs: name, what it is, its settings as on the command line, its dial,
+// its warm-up.
+struct MethodRow {
+    const char* name;
+    const char* sentence;
+    const char* settings;
+    const char* dial;
+    int warm_up_frames;
+};
+
+constexpr MethodRow METHODS[] = {
+    {"uniform", "one light at random, one shadow ray", "direct=uniform", "", 0},
+    {"ris", "the best of several lights by power and reflection, one shadow ray", "direct=ris", "candidates",
+     0},
+};
+
+std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> parts;
+    std::size_t begin = 0;
+    for (std::size_t end; (end = text.find(separator, begin)) != std::string::npos; begin = end + 1) {
+        parts.push_back(text.substr(begin, end - begin));
+    }
+    parts.push_back(text.substr(begin));
+    return parts;
+}
+
+template <class Range, class Name>
+std::string join_names(const Range& range, const Name& name) {
+    std::string list;
+    for (const auto& item : range) list += (list.empty() ? "" : ", ") + std::string(name(item));
+    return list;
+}
+
+// Applies "setting=value" and returns the setting's name.
+std::string apply_setting(RenderSettings& settings, const std::string& text, const std::string& method) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) {
+        throw Error("method '{}': '{}' is not setting=value", method, text);
+    }
+    const std::string name = text.substr(0, equals);
+    find_setting(name).parse(settings, text.substr(equals + 1));
+    return name;
+}
+
+Method make_method(const MethodRow& row) {
+    Method method{row.name, row.sentence, {}, row.dial, row.warm_up_frames};
+    for (const std::string& setting : split(row.settings, ',')) {
+        apply_setting(method.settings, setting, row.name);
+    }
+    return method;
+}
+
+}  // namespace
+
+const std::vector<Method>& method_table() {
+    static const std::vector<Method> table = [] {
+        std::vector<Method> methods;
+        for (const MethodRow& row : METHODS) methods.push_back(make_method(row));
+        return methods;
+    }();
+    return table;
+}
+
+const Setting& find_setting(const std::string& name) {
+    const auto& table = setting_table();
+    const auto setting =
+        std::find_if(table.begin(), table.end(), [&](const Setting& s) { return s.name == name; });
+    if (setting != table.end()) return *setting;
+    throw Error("'{}' is no setting; there are: {}", name,
+                join_names(table, [](const Setting& s) { return s.name; }));
+}
+
+Method parse_method(const std::string& text) {
+    const std::size_t colon = text.find(':');
+    const std::string name = text.substr(0, colon);
+    const auto& table = method_table();
+    const auto row =
+        std::find_if(table.begin(), table.end(), [&](const Method& m) { return m.label == name; });
+    if (row == table.end()) {
+        throw Error("'{}' is no method; there are: {}", name,
+                    join_names(table, [](const Method& m) { return m.label; }));
+    }
+    Method method = *row;
+    method.label = text;
+    if (colon == std::string::npos) return method;
+    for (const std::string& setting : split(text.substr(colon + 1), ',')) {
+        if (apply_setting(method.settings, setting, text) == method.dial) method.dial.clear();
+    }
+    return method;
+}
+
+std::vector<Method> parse_methods(const std::string& text) {
+    std::vector<std::string> pieces;
+    for (const std::string& piece : split(text, ',')) {
+        const bool continues = piece.find('=') != std::string::npos && piece.find(':') == std::string::npos;
+        if (continues && !pieces.empty()) {
+            pieces.back() += "," + piece;
+        } else {
+            pieces.push_back(piece);
+        }
+    }
+    std::vector<Method> methods;
+    for (const std::string& piece : pieces) {
+        const auto same = [&](const Method& m) { return m.label == piece; };
+        if (std::any_of(methods.begin(), methods.end(), same))
+            throw Error("method '{}' is named twice", piece);
+        methods.push_back(parse_method(piece));
+    }
+    return methods;
+}
+
+}  // namespace tarn

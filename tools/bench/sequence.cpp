@@ -1,0 +1,199 @@
+#include "bench/sequence.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "core/display.h"
+#include "core/error.h"
+#include "core/statistics.h"
+#include "metrics/flip.h"
+
+namespace tarn {
+namespace {
+
+double linear_scale(const Truth& truth) {
+    return std::exp2(double(truth.exposure_ev));
+}
+
+double mean_finite_value(const Image& image) {
+    RunningMoments moments;
+    for (const float value : image.values) {
+        if (std::isfinite(value)) moments.add(value);
+    }
+    return moments.mean();
+}
+
+// Sum of frames in double, so that a thousand of them lose nothing.
+struct FrameSum {
+    std::vector<double> values;
+    int frames = 0;
+
+    void add(const FrameSum& other) {
+        if (values.empty()) values.assign(other.values.size(), 0.0);
+        for (std::size_t i = 0; i < values.size(); ++i) values[i] += other.values[i];
+        frames += other.frames;
+    }
+    Image mean(const Image& like) const {
+        Image image(like.width, like.height, like.channels);
+        for (std::size_t i = 0; i < values.size(); ++i) image.values[i] = float(values[i] / frames);
+        return image;
+    }
+};
+
+// The errors of the means of 1, 2, 4, ... frames. Sums wait until their twin comes, as the bits of a counter.
+class CurveMeter {
+  public:
+    explicit CurveMeter(const Truth& truth) : truth_(truth) {}
+
+    void add(FrameSum sum) {
+        for (std::size_t level = 0;; ++level) {
+            if (level == waiting_.size()) {
+                waiting_.emplace_back();
+                points_.push_back({sum.frames, 0.0, 0.0, 0.0});
+                counts_.push_back(0);
+            }
+            measure(level, sum);
+            if (waiting_[level].frames == 0) {
+                waiting_[level] = std::move(sum);
+                return;
+            }
+            sum.add(waiting_[level]);
+            waiting_[level] = {};
+        }
+    }
+
+    std::vector<CurvePoint> points() const {
+        std::vector<CurvePoint> means = points_;
+        for (std::size_t i = 0; i < means.size(); ++i) {
+            means[i].mse /= counts_[i];
+            means[i].rel_mse /= counts_[i];
+            means[i].rel_mse_trimmed /= counts_[i];
+        }
+        return means;
+    }
+
+  private:
+    void measure(std::size_t level, const FrameSum& sum) {
+        const ImageErrors errors =
+            compute_image_errors(truth_.radiance, sum.mean(truth_.radiance), linear_scale(truth_));
+        points_[level].mse += errors.mse;
+        points_[level].rel_mse += errors.rel_mse;
+        points_[level].rel_mse_trimmed += errors.rel_mse_trimmed;
+        ++counts_[level];
+    }
+
+    const Truth& truth_;
+    std::vector<FrameSum> waiting_;
+    std::vector<CurvePoint> points_;
+    std::vector<int> counts_;
+};
+
+void add_timings(SequenceMeasure& measure, const FrameTimings& timings) {
+    measure.frame_ms.push_back(timings.frame_ms);
+    for (const PassTiming& pass : timings.passes) {
+        const auto found = std::find_if(measure.passes.begin(), measure.passes.end(),
+                                        [&](const PassSamples& p) { return p.name == pass.name; });
+        if (found == measure.passes.end()) {
+            measure.passes.push_back({pass.name, {pass.ms}});
+        } else {
+            found->ms.push_back(pass.ms);
+        }
+    }
+}
+
+double mean_absolute_change(const Image& before, const Image& after) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < before.values.size(); ++i) {
+        const double change = std::abs(double(after.values[i]) - double(before.values[i]));
+        if (std::isfinite(change)) sum += change;
+    }
+    return sum / double(std::max<std::size_t>(1, before.values.size()));
+}
+
+void warm_up(FrameSource& source, const SequenceRequest& request) {
+    for (int i = 0; i < request.warm_up_frames; ++i) {
+        source.render(request.method, request.settings, request.seed, request.first_frame + std::uint32_t(i),
+                      i == 0);
+    }
+}
+
+// What the counters gained since `before`.
+std::map<std::string, std::uint64_t> count_since(const std::map<std::string, std::uint64_t>& before,
+                                                 std::map<std::string, std::uint64_t> now) {
+    for (auto& [name, value] : now) {
+        const auto old = before.find(name);
+        if (old != before.end()) value -= old->second;
+    }
+    return now;
+}
+
+}  // namespace
+
+Truth make_truth(const ReferenceResult& reference, std::span<const std::uint32_t> left_out,
+                 std::optional<float> exposure_ev) {
+    Truth truth;
+    truth.picture = reference.radiance;
+    truth.radiance = reference.radiance;
+    truth.exposure_ev = exposure_ev ? *exposure_ev : auto_exposure_ev(reference.radiance);
+    truth.display = display_from_radiance(reference.radiance, truth.exposure_ev);
+    truth.left_out = left_out.size();
+    truth.spp = reference.spp;
+    truth.relative_error = reference.relative_error;
+    Image variance = reference.variance;
+    for (Image* image : {&truth.radiance, &truth.display, &variance}) {
+        for (const std::uint32_t pixel : left_out) {
+            for (std::size_t c = 0; c < 3; ++c) image->values[3 * std::size_t(pixel) + c] = std::nanf("");
+        }
+    }
+    truth.mean_variance = mean_finite_value(variance);
+    return truth;
+}
+
+PictureErrors measure_picture(const Truth& truth, const Image& radiance) {
+    const Image display = display_from_radiance(radiance, truth.exposure_ev);
+    PictureErrors errors{compute_image_errors(truth.radiance, radiance, linear_scale(truth)),
+                         mean_error(compute_ldr_flip(truth.display, display))};
+    errors.linear.non_finite -= std::min(errors.linear.non_finite, truth.left_out);
+    return errors;
+}
+
+MeasuredSequence measure_sequence(FrameSource& source, const Truth& truth, const SequenceRequest& request) {
+    TARN_ASSERT(!request.with_curve || std::has_single_bit(unsigned(request.frames)),
+                "a curve of {} frames: not a power of two", request.frames);
+    MeasuredSequence result;
+    SequenceMeasure& measure = result.measure;
+    CurveMeter curve(truth);
+    FrameSum total;
+    Image before;
+    double changes = 0.0;
+    const auto counters_before = source.read_counters(request.method);
+    warm_up(source, request);
+    for (int i = 0; i < request.frames; ++i) {
+        const std::uint32_t number = request.first_frame + std::uint32_t(request.warm_up_frames + i);
+        RenderedFrame frame = source.render(request.method, request.settings, request.seed, number,
+                                            i == 0 && request.warm_up_frames == 0);
+        add_timings(measure, frame.timings);
+        measure.rays += frame.rays;
+        FrameSum sum{{frame.radiance.values.begin(), frame.radiance.values.end()}, 1};
+        total.add(sum);
+        if (request.with_curve) curve.add(std::move(sum));
+        if (i > 0) {
+            changes += mean_absolute_change(before, frame.radiance);
+            measure.repeated_frames += before.values == frame.radiance.values;
+        } else {
+            result.first = frame.radiance;
+        }
+        before = std::move(frame.radiance);
+    }
+    const double truth_mean = mean_finite_value(truth.radiance);
+    if (request.frames > 1 && truth_mean > 0.0) measure.flicker = changes / (request.frames - 1) / truth_mean;
+    measure.counters = count_since(counters_before, source.read_counters(request.method));
+    result.mean = total.mean(truth.radiance);
+    measure.first = measure_picture(truth, result.first);
+    measure.mean = request.frames > 1 ? measure_picture(truth, result.mean) : measure.first;
+    if (request.with_curve) measure.curve = curve.points();
+    return result;
+}
+
+}  // namespace tarn

@@ -1,0 +1,235 @@
+// tarn bench: error against time of several methods, at equal time and at equal error, with bias apart from
+// noise.
+#include "bench/bench_run.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "bench/file_names.h"
+#include "bench/hash.h"
+#include "bench/reference_cache.h"
+#include "bench/results.h"
+#include "commands.h"
+#include "core/error.h"
+#include "core/interrupt.h"
+#include "gl/shader_source.h"
+#include "renderer_source.h"
+#include "session.h"
+#include "silhouettes.h"
+
+namespace tarn {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Far from the seeds that methods get: the reference must share no random numbers with what it judges.
+constexpr std::uint32_t REFERENCE_SEED = 0x5eed0001u;
+constexpr int MAX_FRAMES = 4096;
+
+struct BenchCommand {
+    RenderOptions options;
+    std::vector<std::string> scenes = {"lantern_court"};
+    std::string methods;
+    std::vector<double> budgets_ms = {50.0, 200.0};
+    int seeds = 8;
+    int frames = 32;
+    int reference_spp = 512;
+    std::string out = "out/bench";
+};
+
+std::string all_method_names() {
+    std::string names;
+    for (const Method& method : method_table()) names += (names.empty() ? "" : ",") + method.label;
+    return names;
+}
+
+BenchPlan make_plan(const BenchCommand& command) {
+    BenchPlan plan;
+    plan.methods = parse_methods(command.methods);
+    plan.budgets_ms = command.budgets_ms;
+    std::sort(plan.budgets_ms.begin(), plan.budgets_ms.end());
+    plan.seeds = command.seeds;
+    plan.first_seed = command.options.scene.seed;
+    plan.frames = command.frames;
+    return plan;
+}
+
+Json describe_plan(const BenchCommand& command, const BenchPlan& plan) {
+    Json json = {{"width", command.options.scene.width},
+                 {"height", command.options.scene.height},
+                 {"camera", command.options.scene.camera},
+                 {"time_s", command.options.scene.time_s},
+                 {"context", command.options.context},
+                 {"threads", command.options.scene.threads},
+                 {"seeds", plan.seeds},
+                 {"first_seed", plan.first_seed},
+                 {"frames", plan.frames},
+                 {"budgets_ms", plan.budgets_ms},
+                 {"reference_spp", command.reference_spp}};
+    json["exposure_ev"] = nullptr;
+    if (command.options.exposure_ev) json["exposure_ev"] = *command.options.exposure_ev;
+    json["methods"] = Json::array();
+    for (const Method& method : plan.methods) {
+        json["methods"].push_back(
+            {{"label", method.label}, {"settings", describe_settings(method.settings)}});
+    }
+    return json;
+}
+
+ReferenceSettings reference_settings(const BenchCommand& command, const CameraRecord& camera) {
+    ReferenceSettings settings;
+    settings.width = command.options.scene.width;
+    settings.height = command.options.scene.height;
+    settings.camera = camera;
+    settings.direct_only = true;
+    settings.spp = std::uint64_t(command.reference_spp);
+    settings.seed = REFERENCE_SEED;
+    settings.cancel = &interrupt_flag();
+    return settings;
+}
+
+Truth find_truth(const BenchCommand& command, RenderSession& session, const ReferenceSettings& settings) {
+    const ReferenceResult reference =
+        ReferenceCache(default_cache_folder()).get(session.loaded().world, session.tracer(), settings);
+    if (reference.cancelled) throw Error("interrupted while the reference was rendered");
+    FrameInput input;
+    input.camera = settings.camera;
+    const std::vector<std::uint32_t> left_out = find_silhouettes(session.renderer(), session.tracer(), input);
+    return make_truth(reference, left_out, command.options.exposure_ev);
+}
+
+Json bench_scene(const BenchCommand& command, const BenchPlan& plan, const std::string& scene, Json& machine,
+                 std::vector<WorkFolder>& works) {
+    RenderOptions options = command.options;
+    options.scene.scene = scene;
+    RenderSession session(options);
+    machine = session.describe_machine();
+    const World& world = session.loaded().world;
+    const CameraRecord camera = choose_camera(options.scene, session.loaded().scene, world);
+    const ReferenceSettings reference = reference_settings(command, camera);
+
+    const std::string name = std::filesystem::path(scene).stem().string();
+    const std::filesystem::path out = command.out;
+    const WorkFolder work(out / "unfinished" / file_stem(name),
+                          {{"plan", describe_plan(command, plan)},
+                           {"reference", describe_reference_key(world, reference)},
+                           {"program", hash_program(get_shader_root())},
+                           {"machine", machine}});
+    works.push_back(work);
+    if (work.is_resumed()) fmt::print("{}: going on where an earlier run stopped\n", name);
+    const Truth truth = find_truth(command, session, reference);
+
+    RendererSource source(world, session.tracer(), options.scene.width, options.scene.height,
+                          plan.methods.size());
+    source.set_camera(camera);
+    const std::vector<Cell> cells = plan_cells(plan, source, work);
+    measure_cells(plan, cells, source, truth, work, interrupt_flag());
+
+    Json json = {{"name", name}, {"camera", options.scene.camera}};
+    json["width"] = options.scene.width;
+    json["height"] = options.scene.height;
+    json["reference"] = describe_truth(truth, out, name);
+    json["methods"] = describe_methods(plan, cells, truth, work, out, name);
+    json["equal_error"] = describe_equal_error(json["methods"]);
+    return json;
+}
+
+void print_scene(const Json& scene) {
+    fmt::print("\n{}: against {} samples a pixel, {} pixels on silhouettes left out; errors at {:+.2f} EV\n",
+               scene["name"].get<std::string>(), scene["reference"]["spp"].get<std::uint64_t>(),
+               scene["reference"]["left_out_pixels"].get<std::uint64_t>(),
+               scene["reference"]["exposure_ev"].get<double>());
+    fmt::print("  {:<28} {:>8} {:>7} {:>18} {:>9} {:>15} {:>22}\n", "method", "ms", "frames", "relMSE",
+               "FLIP", "energy", "bias^2 (95 %)");
+    for (const Json& method : scene["methods"]) {
+        for (const Json& cell : method["cells"]) {
+            const auto value = [&](const char* name, const char* part) {
+                return cell["errors"][name][part].get<double>();
+            };
+            const auto reach = [&](const char* name) { return value(name, "high") - value(name, "mean"); };
+            const std::string label = cell["budget_ms"].is_null()
+                                          ? fmt::format("{} {}", method["label"].get<std::string>(),
+                                                        cell["kind"].get<std::string>())
+                                          : fmt::format("{} {:g} ms", method["label"].get<std::string>(),
+                                                        cell["budget_ms"].get<double>());
+            fmt::print("  {:<28} {:8.1f} {:7} {:>18} {:9.4f} {:>15} {:>22}\n", label,
+                       cell["ms"]["median"].get<double>(), cell["frames"].get<int>(),
+                       fmt::format("{:.4f} +- {:.4f}", value("rel_mse", "mean"), reach("rel_mse")),
+                       value("flip_ldr", "mean"),
+                       fmt::format("{:.3f} +- {:.3f}", value("mean_ratio", "mean"), reach("mean_ratio")),
+                       fmt::format("{:.1e} .. {:.1e}", cell["bias"]["low"].get<double>(),
+                                   cell["bias"]["high"].get<double>()));
+        }
+        const Json& slope = method["slope"];
+        if (slope["mean"].is_number()) {
+            fmt::print("  {:<28} MSE falls with time to the power {:.3f} ({:.3f} .. {:.3f})\n",
+                       method["label"].get<std::string>(), slope["mean"].get<double>(),
+                       slope["low"].get<double>(), slope["high"].get<double>());
+        }
+    }
+}
+
+void run_bench(BenchCommand& command) {
+    const BenchPlan plan = make_plan(command);
+    create_folder(command.out);
+    Json results = {{"format", RESULTS_FORMAT}, {"version", RESULTS_VERSION}, {"kind", "bench"}};
+    results["settings"] = describe_plan(command, plan);
+    Json machine, scenes = Json::array();
+    std::vector<WorkFolder> works;
+    for (const std::string& scene : command.scenes) {
+        scenes.push_back(bench_scene(command, plan, scene, machine, works));
+        print_scene(scenes.back());
+    }
+    results["machine"] = machine;
+    results["scenes"] = std::move(scenes);
+    const std::filesystem::path out = command.out;
+    write_json(out / "results.json", results);
+    if (!command.options.json_file.empty()) write_json(command.options.json_file, results);
+    for (const WorkFolder& work : works) work.remove();
+    std::error_code ignored;
+    std::filesystem::remove(out / "unfinished", ignored);
+    fmt::print("\nResults and pictures are in {}\n", std::filesystem::absolute(out).string());
+}
+
+void check_frames(const BenchCommand& command) {
+    if (!std::has_single_bit(unsigned(command.frames))) {
+        throw CLI::ValidationError("--frames", fmt::format("{} is not a power of two", command.frames));
+    }
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& app) {
+    auto command = std::make_shared<BenchCommand>();
+    CLI::App* sub = app.add_subcommand("bench", "Compare methods: error against time, bias apart from noise");
+    command->options.scene.width = 320;
+    command->options.scene.height = 180;
+    command->methods = all_method_names();
+    add_measure_options(*sub, command->options);
+    sub->remove_option(sub->get_option("SCENE"));
+    sub->add_option("SCENE", command->scenes, "glTF files or generated scenes")->capture_default_str();
+    sub->add_option("--methods", command->methods,
+                    "Methods to compare: NAME[:setting=value[,setting=value]], separated by commas")
+        ->capture_default_str();
+    sub->add_option("--budgets", command->budgets_ms, "Equal times to compare at, ms, separated by commas")
+        ->delimiter(',')
+        ->check(CLI::Range(0.1, 1e6))
+        ->capture_default_str();
+    sub->add_option("--seeds", command->seeds, "Independent seeds a method")
+        ->check(CLI::Range(3, 1000))
+        ->capture_default_str();
+    sub->add_option("--frames", command->frames, "Frames of the convergence curves, a power of two")
+        ->check(CLI::Range(2, MAX_FRAMES))
+        ->capture_default_str();
+    sub->add_option("--reference-spp", command->reference_spp, "Samples a pixel of the reference")
+        ->check(CLI::Range(2, 1000000))
+        ->capture_default_str();
+    sub->add_option("--out", command->out, "Folder for results.json, the page and its pictures")
+        ->capture_default_str();
+    sub->callback([command] {
+        check_frames(*command);
+        run_bench(*command);
+    });
+}
+
+}  // namespace tarn
