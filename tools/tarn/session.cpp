@@ -47,23 +47,8 @@ nlohmann::json describe_settings(const RenderOptions& options, const Renderer& r
 
 }  // namespace
 
-void add_measure_options(CLI::App& command, RenderOptions& options) {
-    add_scene_options(command, options.scene);
-    command.add_option("--context", options.context, "Where GL comes from [egl, glfw, osmesa]")
-        ->check(CLI::IsMember({"egl", "glfw", "osmesa"}))
-        ->capture_default_str();
-    command
-        .add_option("--exposure", options.exposure_ev, "Exposure of PNG pictures, EV (default: automatic)")
-        ->check([](const std::string& text) {
-            // The conversion itself takes "nan" and "inf" for numbers.
-            const bool is_odd = !text.empty() && !std::isfinite(std::strtod(text.c_str(), nullptr));
-            return is_odd ? fmt::format("'{}' is not a finite number", text) : std::string();
-        });
-    command.add_option("--json", options.json_file, "Write timings, counters and settings to this file");
-}
-
 void add_render_options(CLI::App& command, RenderOptions& options) {
-    add_measure_options(command, options);
+    add_scene_options(command, options.scene);
     for (const Setting& setting : setting_table()) {
         std::string sentence = setting.sentence;
         if (setting.choices.empty()) {
@@ -84,6 +69,17 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
         command.add_option_function<std::string>("--" + setting.name, parse, sentence)
             ->default_str(setting.format(options.settings));
     }
+    command.add_option("--context", options.context, "Where GL comes from [egl, glfw, osmesa]")
+        ->check(CLI::IsMember({"egl", "glfw", "osmesa"}))
+        ->capture_default_str();
+    command
+        .add_option("--exposure", options.exposure_ev, "Exposure of PNG pictures, EV (default: automatic)")
+        ->check([](const std::string& text) {
+            // The conversion itself takes "nan" and "inf" for numbers.
+            const bool is_odd = !text.empty() && !std::isfinite(std::strtod(text.c_str(), nullptr));
+            return is_odd ? fmt::format("'{}' is not a finite number", text) : std::string();
+        });
+    command.add_option("--json", options.json_file, "Write timings, counters and settings to this file");
 }
 
 RenderSession::RenderSession(const RenderOptions& options)

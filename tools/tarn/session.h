@@ -20,10 +20,7 @@ struct RenderOptions {
     std::string json_file;
 };
 
-// Adds the scene's options, --context, --exposure and --json.
-void add_measure_options(CLI::App& command, RenderOptions& options);
-
-// The same, and an option for each row of the settings table.
+// Adds --context, --exposure, --json and an option for each row of the settings table.
 void add_render_options(CLI::App& command, RenderOptions& options);
 
 class RenderSession {
