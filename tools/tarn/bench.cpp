@@ -8,6 +8,7 @@
 #include "bench/file_names.h"
 #include "bench/hash.h"
 #include "bench/reference_cache.h"
+#include "bench/report.h"
 #include "bench/results.h"
 #include "commands.h"
 #include "core/error.h"
@@ -184,11 +185,12 @@ void run_bench(BenchCommand& command) {
     results["scenes"] = std::move(scenes);
     const std::filesystem::path out = command.out;
     write_json(out / "results.json", results);
+    write_report(out / "report.html", {{results, out}});
     if (!command.options.json_file.empty()) write_json(command.options.json_file, results);
     for (const WorkFolder& work : works) work.remove();
     std::error_code ignored;
     std::filesystem::remove(out / "unfinished", ignored);
-    fmt::print("\nResults and pictures are in {}\n", std::filesystem::absolute(out).string());
+    fmt::print("\nThe report is {}\n", std::filesystem::absolute(out / "report.html").string());
 }
 
 void check_frames(const BenchCommand& command) {
