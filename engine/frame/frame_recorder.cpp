@@ -19,6 +19,17 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
+// A pass that runs several times a frame is one row.
+void add_timing(FrameTimings& timings, const std::string& name, double ms) {
+    for (PassTiming& pass : timings.passes) {
+        if (pass.name == name) {
+            pass.ms += ms;
+            return;
+        }
+    }
+    timings.passes.push_back({name, ms});
+}
+
 }  // namespace
 
 // ---- PassRecorder
@@ -41,6 +52,22 @@ PassRecorder& PassRecorder::read(unsigned unit, const BufferTexture& texture, co
     return *this;
 }
 
+PassRecorder& PassRecorder::read(unsigned unit, const TextureArray& textures) {
+    frame_.check_written(textures.id(), true, name_, textures.name());
+    textures.bind(unit);
+    return *this;
+}
+
+PassRecorder& PassRecorder::read(unsigned unit, const Past<RowBuffer>& rows) {
+    rows.value().texture().bind(unit);
+    return *this;
+}
+
+PassRecorder& PassRecorder::write(const TextureArray& textures) {
+    frame_.written_.emplace(true, textures.id());
+    return *this;
+}
+
 PassRecorder& PassRecorder::write_image(unsigned unit, const Texture2D& texture) {
     texture.bind_image(unit, GL_WRITE_ONLY);
     frame_.written_.emplace(true, texture.id());
@@ -50,6 +77,11 @@ PassRecorder& PassRecorder::write_image(unsigned unit, const Texture2D& texture)
 PassRecorder& PassRecorder::write(unsigned binding, const Buffer& buffer) {
     buffer.bind_storage(binding);
     frame_.written_.emplace(false, buffer.id());
+    return *this;
+}
+
+PassRecorder& PassRecorder::read_on_cpu(const Buffer& buffer) {
+    frame_.check_written(buffer.id(), false, name_, buffer.name());
     return *this;
 }
 
@@ -116,7 +148,7 @@ FrameTimings FrameRecorder::end() {
             const std::uint64_t to = queries_[timed.first_query + 1].read_ns();
             ms = to > from ? double(to - from) * 1e-6 : 0.0;
         }
-        timings.passes.push_back({timed.name, ms});
+        add_timing(timings, timed.name, ms);
     }
     return timings;
 }

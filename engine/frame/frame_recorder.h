@@ -3,6 +3,8 @@
 //
 //     frame.pass("direct/shade").read(14, reservoirs).write_image(0, radiance).dispatch(program, width,
 //     height);
+//
+// Only a History<T> (frame/history.h) looks back to the frame before.
 #pragma once
 
 #include <chrono>
@@ -14,12 +16,14 @@
 #include <utility>
 #include <vector>
 
+#include "frame/history.h"
 #include "frame/timings.h"
 #include "gl/buffer.h"
 #include "gl/debug_output.h"
 #include "gl/framebuffer.h"
 #include "gl/program.h"
 #include "gl/query.h"
+#include "gl/row_buffer.h"
 #include "gl/texture.h"
 
 namespace tarn {
@@ -38,10 +42,21 @@ class PassRecorder {
     PassRecorder& read(unsigned unit, const Texture2D& texture);
     // The same through a buffer texture; `buffer` is the memory behind it.
     PassRecorder& read(unsigned unit, const BufferTexture& texture, const Buffer& buffer);
+    PassRecorder& read(unsigned unit, const TextureArray& textures);
+    PassRecorder& read(unsigned unit, const RowBuffer& rows) {
+        return read(unit, rows.texture(), rows.buffer());
+    }
+    // What the last frame wrote, before any other pass of this frame.
+    PassRecorder& read(unsigned unit, const Past<RowBuffer>& rows);
     // Writes through image unit `unit`.
     PassRecorder& write_image(unsigned unit, const Texture2D& texture);
+    // Says that the layers of `textures`, bound one by one, are all written.
+    PassRecorder& write(const TextureArray& textures);
     // Writes as storage block `binding`.
     PassRecorder& write(unsigned binding, const Buffer& buffer);
+    PassRecorder& write(unsigned binding, const RowBuffer& rows) { return write(binding, rows.buffer()); }
+    // Reads by the CPU, through the buffer's mapping.
+    PassRecorder& read_on_cpu(const Buffer& buffer);
     // Writes by the CPU, through the buffer's mapping.
     PassRecorder& write_on_cpu(const Buffer& buffer);
     // Adds to counters in storage block `binding`; they need not have been written in this frame.

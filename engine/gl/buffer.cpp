@@ -68,6 +68,13 @@ void Buffer::upload_bytes(std::size_t offset_bytes, const void* bytes, std::size
         glNamedBufferSubData(id(), GLintptr(offset_bytes), GLsizeiptr(count_bytes), bytes);
 }
 
+void Buffer::copy(const Buffer& source, std::size_t from_bytes, std::size_t to_bytes,
+                  std::size_t count_bytes) {
+    if (count_bytes == 0) return;
+    glCopyNamedBufferSubData(source.id(), id(), GLintptr(from_bytes), GLintptr(to_bytes),
+                             GLsizeiptr(count_bytes));
+}
+
 void Buffer::download_bytes(void* bytes, std::size_t count_bytes) const {
     if (count_bytes == 0) return;
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);

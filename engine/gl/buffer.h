@@ -50,6 +50,13 @@ class Buffer {
         upload(offset_bytes, std::span<const T>(rows));
     }
 
+    // Copies bytes on the device, from `source` (or this buffer, where the two ranges must not overlap),
+    // ordered with the GL commands around it.
+    void copy(std::size_t from_bytes, std::size_t to_bytes, std::size_t count_bytes) {
+        copy(*this, from_bytes, to_bytes, count_bytes);
+    }
+    void copy(const Buffer& source, std::size_t from_bytes, std::size_t to_bytes, std::size_t count_bytes);
+
     // Waits for the device and returns the whole buffer (for tests and reports; any use).
     template <class T>
     std::vector<T> download() const {

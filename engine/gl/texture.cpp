@@ -12,6 +12,12 @@ GLuint create_texture(GLenum target) {
     return id;
 }
 
+GLuint generate_texture() {
+    GLuint id = 0;
+    glGenTextures(1, &id);
+    return id;
+}
+
 void check_extent(const std::string& name, int width_px, int height_px) {
     const GLint64 limit = get_gl_limit(GL_MAX_TEXTURE_SIZE);
     if (width_px < 1 || height_px < 1 || width_px > limit || height_px > limit)
@@ -39,6 +45,23 @@ void clear_texture(const Texture2D& texture, GLenum format, GLenum type, const v
 
 }  // namespace
 
+TextureArray::TextureArray(std::string name, int width_px, int height_px, int layers, GLenum internal_format)
+    : name_(std::move(name)),
+      width_px_(width_px),
+      height_px_(height_px),
+      layers_(layers),
+      format_(get_pixel_format(internal_format)),
+      handle_(create_texture(GL_TEXTURE_2D_ARRAY)) {
+    set_label(GL_TEXTURE, id(), name_);
+    check_extent(name_, width_px, height_px);
+    const GLint64 limit = get_gl_limit(GL_MAX_ARRAY_TEXTURE_LAYERS);
+    if (layers < 1 || layers > limit)
+        throw Error("texture '{}' has {} layers, there must be 1..{}", name_, layers, limit);
+    glTextureStorage3D(id(), 1, internal_format, width_px, height_px, layers);
+    check_gl(fmt::format("texture '{}' of {}x{}x{} px {}", name_, width_px, height_px, layers, format_.name));
+    set_sampling(id(), GL_NEAREST, GL_CLAMP_TO_EDGE);
+}
+
 Texture2D::Texture2D(std::string name, int width_px, int height_px, GLenum internal_format)
     : name_(std::move(name)),
       width_px_(width_px),
@@ -49,6 +72,21 @@ Texture2D::Texture2D(std::string name, int width_px, int height_px, GLenum inter
     check_extent(name_, width_px, height_px);
     glTextureStorage2D(id(), 1, internal_format, width_px, height_px);
     check_gl(fmt::format("texture '{}' of {}x{} px {}", name_, width_px, height_px, format_.name));
+    set_sampling(id(), GL_NEAREST, GL_CLAMP_TO_EDGE);
+}
+
+Texture2D::Texture2D(std::string name, const TextureArray& stack, int layer)
+    : name_(std::move(name)),
+      width_px_(stack.width_px()),
+      height_px_(stack.height_px()),
+      format_(stack.format()),
+      handle_(generate_texture()) {
+    TARN_ASSERT(layer >= 0 && layer < stack.layers(), "texture '{}' has {} layers, not {}", stack.name(),
+                stack.layers(), layer);
+    // A view takes a name without storage or target.
+    glTextureView(id(), GL_TEXTURE_2D, stack.id(), format_.internal_format, 0, 1, GLuint(layer), 1);
+    set_label(GL_TEXTURE, id(), name_);
+    check_gl(fmt::format("layer {} of texture '{}'", layer, stack.name()));
     set_sampling(id(), GL_NEAREST, GL_CLAMP_TO_EDGE);
 }
 

@@ -1,4 +1,4 @@
-// GL textures: a screen-sized image, and a buffer read as texels.
+// GL textures: a screen-sized image, a stack of them, and a buffer read as texels.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -22,12 +22,40 @@ inline void delete_texture(GLuint id) {
 }
 }  // namespace detail
 
+// Images of one size and format that shaders read through a single texture unit (sampler2DArray): GL 4.5
+// promises only 16 units. Each layer is written and downloaded as a Texture2D.
+class TextureArray {
+  public:
+    // Undefined texels; Error for empty images or beyond the driver's limits.
+    TextureArray(std::string name, int width_px, int height_px, int layers, GLenum internal_format);
+
+    void bind(unsigned unit) const { glBindTextureUnit(unit, id()); }
+
+    const std::string& name() const { return name_; }
+    int width_px() const { return width_px_; }
+    int height_px() const { return height_px_; }
+    int layers() const { return layers_; }
+    const PixelFormat& format() const { return format_; }
+    GLuint id() const { return handle_.id(); }
+
+  private:
+    std::string name_;
+    int width_px_;
+    int height_px_;
+    int layers_;
+    PixelFormat format_;
+    Handle<detail::delete_texture> handle_;
+};
+
 // A 2D image of one level, read with nearest filtering and clamped at its edges.
 class Texture2D {
   public:
     // An image of width x height px with undefined texels; Error for an empty one or one beyond the driver's
     // limit.
     Texture2D(std::string name, int width_px, int height_px, GLenum internal_format);
+
+    // Layer `layer` of a stack of images, over the same memory.
+    Texture2D(std::string name, const TextureArray& stack, int layer);
 
     // Sets every texel: the first for float and normalized formats (depth: x), the others for integer
     // formats.

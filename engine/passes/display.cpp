@@ -55,11 +55,7 @@ const Texture2D& DisplayPass::record(FrameRecorder& frame, const Texture2D& radi
     // Bound directly: these come from a finished frame, whatever recorder made them.
     radiance.bind(UNIT_PASS_A);
     gbuffer.seen.bind(UNIT_PASS_B);
-    gbuffer.position.bind(UNIT_POSITION);
-    gbuffer.normals.bind(UNIT_NORMALS);
-    gbuffer.diffuse.bind(UNIT_DIFFUSE);
-    gbuffer.specular.bind(UNIT_SPECULAR);
-    gbuffer.emission.bind(UNIT_EMISSION);
+    gbuffer.surface().bind(UNIT_SURFACE);
     frame.pass("display")
         .write_image(0, picture_)
         .dispatch(program, picture_.width_px(), picture_.height_px());

@@ -58,11 +58,15 @@ struct GBufferPass::Bucket {
     std::vector<DrawCommand> commands;
 };
 
+SurfaceImages::SurfaceImages(int width_px, int height_px)
+    : stack("gbuffer/surface", width_px, height_px, LAYER_COUNT, GL_RGBA32F) {
+    for (int layer = 0; layer < LAYER_COUNT; ++layer) {
+        layers.emplace_back(fmt::format("gbuffer/surface/{}", layer), stack, layer);
+    }
+}
+
 PassRecorder& read_gbuffer(PassRecorder& pass, const GBuffer& gbuffer) {
-    return pass.read(UNIT_POSITION, gbuffer.position)
-        .read(UNIT_NORMALS, gbuffer.normals)
-        .read(UNIT_DIFFUSE, gbuffer.diffuse)
-        .read(UNIT_SPECULAR, gbuffer.specular);
+    return pass.read(UNIT_SURFACE, gbuffer.surface());
 }
 
 GBufferPass::GBufferPass(ProgramLibrary& programs, const GpuScene& gpu_scene, int width_px, int height_px)
@@ -71,11 +75,7 @@ GBufferPass::GBufferPass(ProgramLibrary& programs, const GpuScene& gpu_scene, in
       height_px_(height_px),
       seen_("gbuffer/seen", width_px, height_px, GL_RG32UI),
       depth_("gbuffer/depth", width_px, height_px, GL_DEPTH_COMPONENT32F),
-      position_("gbuffer/position", width_px, height_px, GL_RGBA32F),
-      normals_("gbuffer/normals", width_px, height_px, GL_RGBA32F),
-      diffuse_("gbuffer/diffuse", width_px, height_px, GL_RGBA32F),
-      specular_("gbuffer/specular", width_px, height_px, GL_RGBA32F),
-      emission_("gbuffer/emission", width_px, height_px, GL_RGBA32F),
+      surfaces_([=] { return SurfaceImages(width_px, height_px); }),
       target_("gbuffer/raster", {&seen_}, &depth_),
       vertex_array_("gbuffer/vertices") {
     for (const Culling culling : {Culling::BACK, Culling::BACK_MIRRORED, Culling::NONE}) {
@@ -164,15 +164,17 @@ GBuffer GBufferPass::record(FrameRecorder& frame, const World& world, const Came
     glDisable(GL_CULL_FACE);
     glDisable(GL_DEPTH_TEST);
 
-    frame.pass("gbuffer/resolve")
-        .read(UNIT_PASS_A, seen_)
-        .write_image(0, position_)
-        .write_image(1, normals_)
-        .write_image(2, diffuse_)
-        .write_image(3, specular_)
-        .write_image(4, emission_)
-        .dispatch(programs_.compute("gbuffer/resolve", scene_defines), width_px_, height_px_);
-    return {seen_, position_, normals_, diffuse_, specular_, emission_};
+    resolve(frame, scene_defines);
+    return {seen_, surfaces_.current(), surfaces_.previous()};
+}
+
+void GBufferPass::resolve(FrameRecorder& frame, const std::vector<std::string>& scene_defines) {
+    const SurfaceImages& images = surfaces_.current();
+    PassRecorder pass = frame.pass("gbuffer/resolve");
+    pass.read(UNIT_PASS_A, seen_).write(images.stack);
+    for (int layer = 0; layer < LAYER_COUNT; ++layer)
+        pass.write_image(unsigned(layer), images.layers[std::size_t(layer)]);
+    pass.dispatch(programs_.compute("gbuffer/resolve", scene_defines), width_px_, height_px_);
 }
 
 }  // namespace tarn

@@ -6,20 +6,29 @@
 #include <vector>
 
 #include "frame/frame_recorder.h"
+#include "frame/history.h"
 #include "gl/program_library.h"
 #include "gl/vertex_array.h"
 #include "passes/gpu_scene.h"
+#include "shared/interface/bindings.h"
 
 namespace tarn {
 
-// Layout of the surface images: shaders/passes/gbuffer/resolve.comp.
+// The surface that each pixel sees, RGBA32F. Layout: shaders/passes/gbuffer/resolve.comp.
+struct SurfaceImages {
+    SurfaceImages(int width_px, int height_px);
+
+    TextureArray stack;             // all layers, read through one texture unit
+    std::vector<Texture2D> layers;  // each alone (LAYER_*)
+};
+
 struct GBuffer {
     const Texture2D& seen;  // RG32UI: instance, primitive; INVALID_INDEX: nothing
-    const Texture2D& position;
-    const Texture2D& normals;
-    const Texture2D& diffuse;
-    const Texture2D& specular;
-    const Texture2D& emission;
+    const SurfaceImages& images;
+    Past<SurfaceImages> previous;
+
+    const TextureArray& surface() const { return images.stack; }
+    const Texture2D& position() const { return images.layers[LAYER_POSITION]; }
 };
 
 // Binds what lib/gbuffer.glsl reads.
@@ -41,6 +50,9 @@ class GBufferPass {
     GBuffer record(FrameRecorder& frame, const World& world, const CameraRecord& camera,
                    const std::vector<std::string>& scene_defines);
 
+    // Ends the frame: the surfaces that it saw become the previous ones.
+    void advance() { surfaces_.advance(); }
+
     const GBufferStatistics& statistics() const { return statistics_; }
 
   private:
@@ -48,17 +60,14 @@ class GBufferPass {
 
     void collect_draws(const World& world, const CameraRecord& camera);
     void issue_draws(bool coverage) const;
+    void resolve(FrameRecorder& frame, const std::vector<std::string>& scene_defines);
 
     ProgramLibrary& programs_;
     int width_px_;
     int height_px_;
     Texture2D seen_;
     Texture2D depth_;
-    Texture2D position_;
-    Texture2D normals_;
-    Texture2D diffuse_;
-    Texture2D specular_;
-    Texture2D emission_;
+    History<SurfaceImages> surfaces_;
     Framebuffer target_;
     VertexArray vertex_array_;
     std::unique_ptr<Buffer> draw_ids_;

@@ -1,45 +1,46 @@
-// The world's tables in GL memory, and the uniform block of the frame.
+// The world's tables in GL memory: as they are, and what of them the last frame saw elsewhere.
 #pragma once
 
 #include <glm/glm.hpp>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "gl/buffer.h"
-#include "gl/texture.h"
+#include "gl/row_buffer.h"
+#include "passes/gpu_lights.h"
 #include "shared/interface/frame_block.h"
 #include "world/world.h"
 
 namespace tarn {
 
-// A table as shaders read it: a buffer and the texture through which its rows are fetched.
+// A table that the CPU fills and shaders fetch from, row by row.
 class Table {
   public:
     template <class Row>
     Table(const std::string& name, const std::vector<Row>& rows, GLenum format)
-        : buffer_(name, rows.size() * sizeof(Row), BufferUse::DYNAMIC), texture_(name, buffer_, format) {
+        : row_bytes_(sizeof(Row)), rows_(name, rows.size() * sizeof(Row), BufferUse::DYNAMIC, format) {
         upload(rows);
     }
 
     // Replaces the first rows; there must be room for them.
     template <class Row>
     void upload(const std::vector<Row>& rows) {
-        if (!rows.empty()) buffer_.upload(0, rows);
+        if (!rows.empty()) rows_.buffer().upload(0, rows);
     }
     // Replaces rows from `first_row` on.
     template <class Row>
     void upload_range(std::size_t first_row, std::span<const Row> rows) {
-        buffer_.upload(first_row * sizeof(Row), rows);
+        if (!rows.empty()) rows_.buffer().upload(first_row * sizeof(Row), rows);
     }
-    bool holds(std::size_t size_bytes) const { return size_bytes <= buffer_.size_bytes(); }
-    void bind(unsigned unit) const { texture_.bind(unit); }
-    const Buffer& buffer() const { return buffer_; }
+    void copy_rows(std::size_t from_row, std::size_t to_row, std::size_t count) {
+        rows_.buffer().copy(from_row * row_bytes_, to_row * row_bytes_, count * row_bytes_);
+    }
+    void bind(unsigned unit) const { rows_.texture().bind(unit); }
+    const Buffer& buffer() const { return rows_.buffer(); }
 
   private:
-    Buffer buffer_;
-    BufferTexture texture_;
+    std::size_t row_bytes_;
+    RowBuffer rows_;
 };
 
 class GpuScene {
@@ -49,27 +50,39 @@ class GpuScene {
     // Uploads what has moved since the last call.
     void update(const World& world);
 
+    // Ends a frame: where things are now becomes where they were.
+    void advance(const World& world);
+
     // Binds all tables to their texture units (shared/interface/bindings.h).
     void bind() const;
 
     const Buffer& vertex_buffer() const { return vertices_.buffer(); }
     const Buffer& triangle_buffer() const { return triangles_.buffer(); }
+    const GpuLights& lights() const { return lights_; }
+    // Where the last frame's instances begin in the table of instances.
+    std::uint32_t previous_first_instance() const { return std::uint32_t(instance_revisions_.size()); }
+    // Whether anything ever moved: only then do shaders ask where it was.
+    bool has_moved() const { return has_moved_; }
 
   private:
+    void update_vertices(const World& world);
+    void upload_previous_instances(const World& world);
+
     std::vector<std::uint64_t> mesh_revisions_;
     std::vector<std::uint64_t> instance_revisions_;
-    std::uint64_t light_revision_ = 0;
+    // Meshes that deform keep the last frame's vertices behind all others; INVALID_INDEX for the rest.
+    std::vector<std::uint32_t> previous_first_vertex_;
+    std::vector<std::uint32_t> moved_meshes_;  // since the last frame
+    bool moved_instances_ = false;
+    bool has_moved_ = false;
     Table vertices_;
     Table triangles_;
     Table instances_;
     Table materials_;
     Table texels_;
-    std::optional<Table> light_rows_;
-    std::optional<Table> light_alias_;
+    GpuLights lights_;
     Table environment_texels_;
     Table environment_alias_;
-
-    void upload_lights(const WorldLights& lights);
 };
 
 }  // namespace tarn

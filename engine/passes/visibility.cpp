@@ -2,18 +2,17 @@
 
 namespace tarn {
 
-VisibilityPass::VisibilityPass(std::size_t ray_count)
-    : ray_count_(ray_count),
-      answers_("visibility/answers", ray_count * sizeof(float), BufferUse::SHARED),
-      texture_("visibility/answers", answers_, GL_R32F) {}
+VisibilityPass::VisibilityPass(std::size_t ray_capacity)
+    : answers_("visibility/answers", ray_capacity * sizeof(float), BufferUse::SHARED, GL_R32F) {}
 
-Visibility VisibilityPass::record(FrameRecorder& frame, const RayTracer& tracer, const Buffer& rays,
-                                  const CoverageKey& key) {
-    frame.pass("visibility").write_on_cpu(answers_).run_on_cpu([&] {
-        const auto ray_rows = rays.mapped<glm::uvec4>().first(ray_count_ * RAY_ROWS);
-        result_ = tracer.trace_visibility(ray_rows, answers_.mapped<float>().first(ray_count_), key);
+const RowBuffer& VisibilityPass::record(FrameRecorder& frame, const std::string& name,
+                                        const RayTracer& tracer, const Buffer& rays, std::size_t ray_count,
+                                        const CoverageKey& key) {
+    frame.pass(name).read_on_cpu(rays).write_on_cpu(answers_.buffer()).run_on_cpu([&] {
+        const auto ray_rows = rays.mapped<glm::uvec4>().first(ray_count * RAY_ROWS);
+        result_ = tracer.trace_visibility(ray_rows, answers_.buffer().mapped<float>().first(ray_count), key);
     });
-    return {answers_, texture_};
+    return answers_;
 }
 
 }  // namespace tarn

@@ -2,32 +2,29 @@
 // memory.
 #pragma once
 
+#include <string>
+
 #include "frame/frame_recorder.h"
 #include "rays/ray_tracer.h"
 
 namespace tarn {
 
-// One answer a ray: 1 where nothing is in the way, else 0.
-struct Visibility {
-    const Buffer& answers;
-    const BufferTexture& texture;  // R32F
-};
-
 class VisibilityPass {
   public:
-    explicit VisibilityPass(std::size_t ray_count);
+    explicit VisibilityPass(std::size_t ray_capacity);
 
-    // Traces `rays` (RAY_ROWS rows a ray, SHARED). The only place where GL memory meets the ray tracer.
-    Visibility record(FrameRecorder& frame, const RayTracer& tracer, const Buffer& rays,
-                      const CoverageKey& key);
+    // Traces the first `ray_count` of `rays` (RAY_ROWS rows a ray, SHARED) as pass `name`. Returns one float
+    // a ray: 1 where nothing is in the way, else 0. The only place where GL memory meets the ray tracer.
+    const RowBuffer& record(FrameRecorder& frame, const std::string& name, const RayTracer& tracer,
+                            const Buffer& rays, std::size_t ray_count, const CoverageKey& key);
+
+    const RowBuffer& answers() const { return answers_; }
 
     // Rays of the last batch.
     const RayBatchResult& result() const { return result_; }
 
   private:
-    std::size_t ray_count_;
-    Buffer answers_;
-    BufferTexture texture_;
+    RowBuffer answers_;
     RayBatchResult result_;
 };
 

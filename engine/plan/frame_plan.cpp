@@ -45,7 +45,7 @@ std::vector<std::string> FramePlan::defines() const {
     return result;
 }
 
-FramePlan make_plan(const World& world) {
+FramePlan make_plan(const World& world, const PlanHistory& history) {
     FramePlan plan;
     const auto add = [&](const char* define, std::size_t count, const char* what) {
         if (count > 0) plan.entries.push_back({define, fmt::format("{} {}", count, what)});
@@ -66,6 +66,8 @@ FramePlan make_plan(const World& world) {
         "emissive triangles with a texture");
     add("TARN_COVERED_LIGHTS", count_lights_with(lights, LIGHT_COVERED),
         "emissive triangles of partial coverage");
+    if (history.surfaces_move) plan.entries.push_back({"TARN_MOTION", "surfaces move or deform"});
+    if (history.lights_change) plan.entries.push_back({"TARN_LIGHT_HISTORY", "lights move or change"});
     return plan;
 }
 

@@ -20,6 +20,14 @@ struct FramePlan {
     std::vector<std::string> defines() const;
 };
 
-FramePlan make_plan(const World& world);
+// What may differ from the last frame: shaders that look back tell the two frames apart only where they must.
+struct PlanHistory {
+    bool surfaces_move = false;
+    bool lights_change = false;
+
+    bool operator==(const PlanHistory&) const = default;
+};
+
+FramePlan make_plan(const World& world, const PlanHistory& history = {});
 
 }  // namespace tarn

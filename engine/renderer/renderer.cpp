@@ -35,7 +35,8 @@ Renderer::Renderer(const World& world, const RayTracer& tracer, int width_px, in
       tracer_(tracer),
       width_px_(width_px),
       height_px_(height_px),
-      plan_(make_plan(world)),
+      planned_history_{world.is_animated, world.is_animated},
+      plan_(make_plan(world, planned_history_)),
       extra_defines_(std::move(extra_defines)),
       defines_(join(plan_.defines(), extra_defines_)),
       planned_lights_(world.lights.revision),
@@ -43,18 +44,23 @@ Renderer::Renderer(const World& world, const RayTracer& tracer, int width_px, in
       frame_block_("frame/block", sizeof(FrameBlock), BufferUse::DYNAMIC),
       counters_("frame/counters", COUNTER_COUNT * sizeof(std::uint32_t), BufferUse::DEVICE),
       gbuffer_(programs_, gpu_scene_, width_px, height_px),
-      direct_candidates_(programs_, width_px, height_px),
-      visibility_(std::size_t(width_px) * std::size_t(height_px)),
-      direct_shade_(programs_, width_px, height_px) {
+      direct_light_(programs_, width_px, height_px) {
     counters_.clear();
 }
 
 void Renderer::update() {
     gpu_scene_.update(world_);
-    // A light may have come or gone, and with it what the shaders need.
-    if (world_.lights.revision == planned_lights_) return;
+    update_plan();
+}
+
+// A light may have come or gone, a thing have begun to move, and with it what the shaders need.
+void Renderer::update_plan() {
+    const PlanHistory history{world_.is_animated || gpu_scene_.has_moved(),
+                              world_.is_animated || gpu_scene_.lights().have_changed()};
+    if (world_.lights.revision == planned_lights_ && history == planned_history_) return;
     planned_lights_ = world_.lights.revision;
-    plan_ = make_plan(world_);
+    planned_history_ = history;
+    plan_ = make_plan(world_, history);
     defines_ = join(plan_.defines(), extra_defines_);
 }
 
@@ -66,8 +72,17 @@ void Renderer::upload_frame_block(const FrameInput& input) {
     block.frame_camera_up = glm::vec4(camera.up, 0.0f);
     block.frame_camera_forward = glm::vec4(camera.forward, depth_parameter(world_, camera));
     block.frame_size = glm::uvec4(width_px_, height_px_, input.frame, input.seed);
-    block.frame_lights = glm::uvec4(world_.lights.count, world_.environment.width, world_.environment.height,
-                                    input.settings.candidates);
+    block.frame_lights =
+        glm::uvec4(world_.lights.count, world_.environment.width, world_.environment.height, 0u);
+    block.frame_previous_position = glm::vec4(last_camera_.position, last_camera_.orthographic ? 1.0f : 0.0f);
+    block.frame_previous_right = glm::vec4(last_camera_.right, 0.0f);
+    block.frame_previous_up = glm::vec4(last_camera_.up, 0.0f);
+    block.frame_previous_forward = glm::vec4(last_camera_.forward, 0.0f);
+    const bool follows = has_past_ && input.frame == last_frame_ + 1;
+    block.frame_history =
+        glm::uvec4(gpu_scene_.previous_first_instance(), gpu_scene_.lights().previous_first_row(),
+                   gpu_scene_.lights().remap_first_row(), follows ? 1u : 0u);
+    block.frame_tables = glm::uvec4(0u);
     frame_block_.upload(0, std::span<const FrameBlock>(&block, 1));
     frame_block_.bind_uniform(BLOCK_FRAME);
 }
@@ -80,14 +95,24 @@ FrameOutput Renderer::render(const FrameInput& input) {
     gpu_scene_.bind();
 
     const GBuffer gbuffer = gbuffer_.record(frame_, world_, input.camera, defines_);
-    const Candidates candidates =
-        direct_candidates_.record(frame_, gbuffer, input.settings.direct, counters_, defines_);
-    const Visibility visible = visibility_.record(frame_, tracer_, candidates.rays, shadow_key);
-    const Texture2D& radiance =
-        direct_shade_.record(frame_, gbuffer, candidates, visible, counters_, defines_);
+    const Texture2D& radiance = direct_light_.record(
+        {frame_, tracer_, gbuffer, input.settings, glm::vec3(0.0f), counters_, defines_, shadow_key});
 
-    rejected_rays_ += visibility_.result().rejected;
-    return {radiance, gbuffer, frame_.end(), visibility_.result(), gbuffer_.statistics()};
+    const RayBatchResult rays = direct_light_.take_result();
+    rejected_rays_ += rays.rejected;
+    const FrameTimings timings = frame_.end();
+    advance(input);
+    return {radiance, gbuffer, timings, rays, gbuffer_.statistics()};
+}
+
+// What this frame saw becomes the past.
+void Renderer::advance(const FrameInput& input) {
+    gbuffer_.advance();
+    gpu_scene_.advance(world_);
+    direct_light_.advance();
+    last_camera_ = input.camera;
+    last_frame_ = input.frame;
+    has_past_ = true;
 }
 
 Image Renderer::read_radiance(const Texture2D& radiance) const {
@@ -104,6 +129,8 @@ std::map<std::string, std::uint64_t> Renderer::read_counters() const {
     return {{"bad_weights", values[COUNTER_BAD_WEIGHT]},
             {"bad_radiance", values[COUNTER_BAD_RADIANCE]},
             {"bad_reservoirs", values[COUNTER_BAD_RESERVOIR]},
+            {"bad_history", values[COUNTER_BAD_HISTORY]},
+            {"mis_sums", values[COUNTER_MIS_SUM]},
             {"rejected_rays", rejected_rays_}};
 }
 

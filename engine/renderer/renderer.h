@@ -10,12 +10,11 @@
 #include "core/image.h"
 #include "frame/frame_recorder.h"
 #include "gl/program_library.h"
-#include "passes/direct/direct_light.h"
 #include "passes/gbuffer.h"
 #include "passes/gpu_scene.h"
-#include "passes/visibility.h"
 #include "plan/frame_plan.h"
 #include "rays/ray_tracer.h"
+#include "renderer/direct_light.h"
 #include "renderer/settings.h"
 
 namespace tarn {
@@ -46,7 +45,11 @@ class Renderer {
     // Uploads what moved; call after update_world and the tracer's update.
     void update();
 
+    // Looks back to the last frame where this one follows it (`input.frame` is one more), else starts anew.
     FrameOutput render(const FrameInput& input);
+
+    // Forgets the last frame, as after a cut.
+    void reset_history() { has_past_ = false; }
 
     // Waits and reads a radiance texture back as 3 channels.
     Image read_radiance(const Texture2D& radiance) const;
@@ -62,12 +65,15 @@ class Renderer {
     int height_px() const { return height_px_; }
 
   private:
+    void update_plan();
     void upload_frame_block(const FrameInput& input);
+    void advance(const FrameInput& input);
 
     const World& world_;
     const RayTracer& tracer_;
     int width_px_;
     int height_px_;
+    PlanHistory planned_history_;
     FramePlan plan_;
     std::vector<std::string> extra_defines_;
     std::vector<std::string> defines_;
@@ -78,9 +84,10 @@ class Renderer {
     Buffer frame_block_;
     Buffer counters_;
     GBufferPass gbuffer_;
-    DirectCandidatesPass direct_candidates_;
-    VisibilityPass visibility_;
-    DirectShadePass direct_shade_;
+    DirectLight direct_light_;
+    bool has_past_ = false;  // whether the last frame can be looked back at
+    std::uint32_t last_frame_ = 0;
+    CameraRecord last_camera_{};
     std::uint64_t rejected_rays_ = 0;
 };
 

@@ -27,8 +27,9 @@ void Setting::parse(RenderSettings& settings, const std::string& text) const {
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || !(value >= minimum && value <= maximum) ||
-        value != std::floor(value)) {
-        throw Error("--{}: '{}' is not a whole number from {} to {}", name, text, minimum, maximum);
+        (is_whole && value != std::floor(value))) {
+        throw Error("--{}: '{}' is not a {}number from {} to {}", name, text, is_whole ? "whole " : "",
+                    minimum, maximum);
     }
     set(settings, value);
 }
@@ -38,26 +39,157 @@ std::string Setting::format(const RenderSettings& settings) const {
     return choices.empty() ? fmt::format("{}", value) : choices[std::size_t(value)];
 }
 
+namespace {
+
+// A row for a choice: `member` is an enumeration whose values count `choices`, or a bool for off and on.
+template <class T>
+Setting choose(std::string name, std::string sentence, T DirectSettings::*member,
+               std::vector<std::string> choices) {
+    const double last = double(choices.size() - 1);
+    return {std::move(name),
+            "",
+            std::move(sentence),
+            0.0,
+            last,
+            std::move(choices),
+            true,
+            [member](const RenderSettings& s) { return double(s.*member); },
+            [member](RenderSettings& s, double v) { s.*member = T(int(v)); }};
+}
+
+Setting toggle(std::string name, std::string sentence, bool DirectSettings::*member) {
+    return choose(std::move(name), std::move(sentence), member, {"off", "on"});
+}
+
+// A row for a number of type T, whole where T is.
+template <class T>
+Setting number(std::string name, std::string unit, std::string sentence, T DirectSettings::*member,
+               double minimum, double maximum) {
+    return {std::move(name),
+            std::move(unit),
+            std::move(sentence),
+            minimum,
+            maximum,
+            {},
+            std::is_integral_v<T>,
+            [member](const RenderSettings& s) { return double(s.*member); },
+            [member](RenderSettings& s, double v) { s.*member = T(v); }};
+}
+
+}  // namespace
+
 const std::vector<Setting>& setting_table() {
+    using S = DirectSettings;
     static const std::vector<Setting> table = {
-        {"direct",
-         "",
-         "How direct light chooses its sample: one random light, or RIS over many candidates",
-         0,
-         1,
-         {"uniform", "ris"},
-         [](const RenderSettings& s) { return double(s.direct); },
-         [](RenderSettings& s, double v) { s.direct = DirectMode(int(v)); }},
-        {"candidates",
-         "",
-         "Light candidates a pixel that RIS chooses from",
-         1,
-         1024,
-         {},
-         [](const RenderSettings& s) { return double(s.candidates); },
-         [](RenderSettings& s, double v) { s.candidates = int(v); }},
+        choose("direct",
+               "How direct light chooses its sample: one random light, one by power, one by the light tree, "
+               "RIS over "
+               "many candidates, or RIS with samples reused over time and neighbours",
+               &S::direct, {"uniform", "power", "light-tree", "ris", "restir"}),
+        choose("light-selection",
+               "How a candidate of ris and restir finds its light; tiles: by power, drawn in advance",
+               &S::light_selection, {"uniform", "power", "tiles", "tree"}),
+        number("candidates", "", "Light candidates a pixel that ris and restir choose from", &S::candidates,
+               1, 1024),
+        choose("reuse", "restir: whose samples are reused", &S::reuse,
+               {"none", "temporal", "spatial", "spatiotemporal"}),
+        number("spatial-iterations", "", "restir: steps of reuse over neighbours", &S::spatial_iterations, 1,
+               4),
+        number("neighbours", "", "restir: neighbours a step", &S::neighbours, 1, 9),
+        number("radius", "px", "restir: distance of neighbours at most", &S::radius_px, 1, 100),
+        choose(
+            "mis",
+            "restir: weights of reused samples: 1/M, 1/Z, generalized balance heuristic, pairwise defensive",
+            &S::mis, {"constant", "count", "balance", "pairwise"}),
+        toggle("mis-visibility",
+               "restir: trace visibility in the weights, which makes count, balance and pairwise unbiased",
+               &S::mis_visibility),
+        choose("visibility",
+               "restir: how the chosen sample's visibility is known: traced at the end, reused with it, or "
+               "averaged "
+               "over all samples of each step",
+               &S::visibility, {"trace", "reuse", "averaged"}),
+        toggle("discard-occluded", "restir: drop fresh samples that are occluded before anyone reuses them",
+               &S::discard_occluded),
+        toggle("per-channel",
+               "A sample for each of red, green and blue: no colour noise or leak, three times the cost",
+               &S::per_channel),
+        number("confidence-cap", "x",
+               "restir: confidence of the past at most, as a multiple of the fresh sample's",
+               &S::confidence_cap, 1, 1000),
+        number("age-cap", "frames", "restir: drop samples older than this; 0: never", &S::age_cap, 0, 1000),
+        toggle("permute", "restir: neighbours swap their histories, so that fewer share a sample",
+               &S::permute),
+        toggle("mirror", "restir: neighbours outside of the picture are mirrored into it instead of left out",
+               &S::mirror),
     };
     return table;
+}
+
+namespace {
+
+RenderSettings fast_settings() {
+    RenderSettings s;
+    s.direct = DirectMode::RESTIR;
+    s.light_selection = LightSelection::TILES;
+    s.candidates = 8;
+    s.neighbours = 1;
+    s.mis = Mis::BALANCE;
+    s.visibility = SampleVisibility::AVERAGED;
+    s.age_cap = 30;
+    return s;
+}
+
+RenderSettings balanced_settings() {
+    RenderSettings s;
+    s.direct = DirectMode::RESTIR;
+    s.light_selection = LightSelection::TILES;
+    s.candidates = 16;
+    s.neighbours = 3;
+    s.mis = Mis::PAIRWISE;
+    s.age_cap = 30;
+    return s;
+}
+
+RenderSettings unbiased_settings() {
+    RenderSettings s = balanced_settings();
+    s.mis_visibility = true;
+    s.age_cap = 0;
+    return s;
+}
+
+RenderSettings student_settings() {
+    RenderSettings s;
+    s.direct = DirectMode::RESTIR;
+    s.light_selection = LightSelection::UNIFORM;
+    s.candidates = 32;
+    s.neighbours = 5;
+    s.radius_px = 10.0;
+    s.mis = Mis::SHARE;
+    return s;
+}
+
+}  // namespace
+
+const std::vector<Preset>& preset_table() {
+    static const std::vector<Preset> table = {
+        {"fast", "two rays a pixel, visibility reused: some bias, least noise for its time", fast_settings()},
+        {"balanced", "two rays a pixel, the chosen sample traced: darkens near shadow edges",
+         balanced_settings()},
+        {"unbiased", "rays in all MIS weights: no bias where geometry stands still", unbiased_settings()},
+        {"student", "32 random lights, 5 neighbours in 10 px, 1/M weights: the simplest form, for comparison",
+         student_settings()},
+    };
+    return table;
+}
+
+const Preset& find_preset(const std::string& name) {
+    std::vector<std::string> names;
+    for (const Preset& preset : preset_table()) {
+        if (preset.name == name) return preset;
+        names.push_back(preset.name);
+    }
+    throw Error("--preset: '{}' is none of: {}", name, join(names));
 }
 
 }  // namespace tarn

@@ -6,14 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "passes/direct/direct_light.h"
+#include "passes/direct/direct_settings.h"
 
 namespace tarn {
 
-struct RenderSettings {
-    DirectMode direct = DirectMode::RIS;
-    int candidates = 32;
-};
+// So far all of them are of direct light.
+struct RenderSettings : DirectSettings {};
 
 // One row of the table. Values travel as doubles; a choice is the index into `choices`.
 struct Setting {
@@ -23,6 +21,7 @@ struct Setting {
     double minimum = 0.0;
     double maximum = 0.0;
     std::vector<std::string> choices;  // empty: a number
+    bool is_whole = true;              // a number without fraction
     std::function<double(const RenderSettings&)> get;
     std::function<void(RenderSettings&, double)> set;
 
@@ -33,5 +32,17 @@ struct Setting {
 };
 
 const std::vector<Setting>& setting_table();
+
+// A named set of settings.
+struct Preset {
+    std::string name;      // "fast"
+    std::string sentence;  // what it is for
+    RenderSettings settings;
+};
+
+const std::vector<Preset>& preset_table();
+
+// Throws Error that lists the names.
+const Preset& find_preset(const std::string& name);
 
 }  // namespace tarn

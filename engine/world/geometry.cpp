@@ -110,6 +110,7 @@ void add_meshes(World& world, const Scene& scene) {
         instance.scene_instance = std::uint32_t(i);
         if (deforms(scene, source)) {
             instance.mesh = add_mesh(world, mesh);
+            world.meshes.back().deforms = true;
         } else {
             std::uint32_t& index = shared[source.mesh.value];
             if (index == INVALID_INDEX) index = add_mesh(world, mesh);

@@ -15,13 +15,15 @@ namespace {
 struct LightList {
     std::vector<glm::uvec4> rows;
     std::vector<double> powers;
+    std::vector<std::uint64_t> identities;
     std::vector<std::pair<std::uint32_t, EmissionMap>> maps;  // of the lights that have one
 
-    std::uint32_t add(const Light& light, double power) {
+    std::uint32_t add(const Light& light, double power, std::uint64_t identity) {
         const std::size_t first = rows.size();
         rows.resize(first + LIGHT_ROWS);
         pack_light(light, rows[first], rows[first + 1], rows[first + 2], rows[first + 3]);
         powers.push_back(power);
+        identities.push_back(identity);
         return std::uint32_t(powers.size() - 1);
     }
 
@@ -77,7 +79,7 @@ void add_punctual_lights(LightList& list, const World& world, const Scene& scene
         const PunctualLight& source = at(scene.lights, at(scene.nodes, node).light);
         if (max_component(source.intensity) <= 0.0f) continue;
         list.add(make_punctual(source, at(pose.world_from_node, node), world.origin_ws),
-                 punctual_power(source, radius));
+                 punctual_power(source, radius), node.value);
     }
 }
 
@@ -153,7 +155,8 @@ void add_triangle_lights(LightList& list, World& world) {
                     mean = mean_luminance(access, light, map);
                     list.maps.emplace_back(std::uint32_t(list.powers.size()), map);
                 }
-                index = list.add(light, sides * double(PI) * area * mean);
+                const std::uint64_t source = world.instances[i].scene_instance + 1;
+                index = list.add(light, sides * double(PI) * area * mean, source << 32 | primitive);
             }
             lights.light_of_primitive.push_back(index);
         }
@@ -167,6 +170,7 @@ void rebuild_lights(World& world, const Scene& scene, const Pose& pose) {
     const std::uint64_t revision = lights.revision + 1;
     lights = WorldLights{};
     lights.revision = revision;
+    lights.structure_revision = revision;
     lights.instance_first.assign(world.instances.size(), INVALID_INDEX);
     LightList list;
     add_punctual_lights(list, world, scene, pose);
@@ -178,6 +182,8 @@ void rebuild_lights(World& world, const Scene& scene, const Pose& pose) {
     lights.rows = std::move(list.rows);
     lights.alias_rows = std::move(table.rows);
     lights.pmf = std::move(table.pmf);
+    lights.identities = std::move(list.identities);
+    lights.last_changed = lights.count;
 }
 
 }  // namespace tarn

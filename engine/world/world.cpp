@@ -24,6 +24,7 @@ Bounds relative_to(const Bounds& bounds_ws, const glm::dvec3& origin_ws) {
 World build_world(const Scene& scene, const WorldOptions& options) {
     const Pose pose = evaluate_pose(scene, options.time_s);
     World world;
+    world.is_animated = !scene.animations.empty();
     const Bounds bounds_ws = compute_bounds(scene, pose);
     world.origin_ws = choose_origin(bounds_ws);
     world.bounds = relative_to(bounds_ws, world.origin_ws);

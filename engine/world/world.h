@@ -34,6 +34,7 @@ struct WorldMesh {
     std::uint32_t first_vertex = 0;  // in World::vertex_rows / VERTEX_ROWS; triangles count from here
     std::uint32_t vertex_count = 0;
     std::vector<Cluster> clusters;
+    bool deforms = false;        // by skin or morph targets
     std::uint64_t revision = 0;  // grows when vertices move
 };
 
@@ -63,11 +64,17 @@ struct WorldLights {
     // i's first primitive, or INVALID_INDEX where the instance does not emit.
     std::vector<std::uint32_t> instance_first;
     std::vector<std::uint32_t> light_of_primitive;
-    std::uint64_t revision = 0;
+    std::vector<std::uint64_t> identities;  // one a light; the same light keeps it whatever comes and goes
+    // Lights whose rows the last update wrote: [first_changed, last_changed).
+    std::uint32_t first_changed = 0;
+    std::uint32_t last_changed = 0;
+    std::uint64_t structure_revision = 0;  // grows when count, order, alias rows or emission maps change
+    std::uint64_t revision = 0;            // grows with any change
 };
 
 struct World {
     glm::dvec3 origin_ws{0.0};
+    bool is_animated = false;
     Bounds bounds;  // relative to the origin
     std::vector<WorldMesh> meshes;
     std::vector<WorldInstance> instances;

@@ -3,17 +3,12 @@
 #include "shared/math/packing.h"
 #include "shared/math/shading.h"
 
-layout(binding = UNIT_POSITION) uniform sampler2D gbuffer_position;
-layout(binding = UNIT_NORMALS) uniform sampler2D gbuffer_normals;
-layout(binding = UNIT_DIFFUSE) uniform sampler2D gbuffer_diffuse;
-layout(binding = UNIT_SPECULAR) uniform sampler2D gbuffer_specular;
+layout(binding = UNIT_SURFACE) uniform sampler2DArray surface_layers;
 
-// False where there is nothing to be lit: sky, and unlit materials.
-bool load_shading_point(ivec2 pixel, out ShadingPoint p) {
-    vec4 position = texelFetch(gbuffer_position, pixel, 0);
-    vec4 normals = texelFetch(gbuffer_normals, pixel, 0);
-    vec4 diffuse = texelFetch(gbuffer_diffuse, pixel, 0);
-    vec4 specular = texelFetch(gbuffer_specular, pixel, 0);
+vec4 load_layer(ivec2 pixel, int layer) { return texelFetch(surface_layers, ivec3(pixel, layer), 0); }
+
+ShadingPoint unpack_shading_point(vec4 position, vec4 normals, vec4 diffuse, vec4 specular) {
+    ShadingPoint p;
     p.position = position.xyz;
     p.position_error = position.w;
     p.geometric_normal = decode_octahedral(normals.xy);
@@ -22,5 +17,12 @@ bool load_shading_point(ivec2 pixel, out ShadingPoint p) {
     p.material.alpha = diffuse.w;
     p.material.f0 = specular.xyz;
     p.material.f90 = specular.w;
-    return position.w >= 0.0f;
+    return p;
+}
+
+// False where there is nothing to be lit: sky, and unlit materials.
+bool load_shading_point(ivec2 pixel, out ShadingPoint p) {
+    p = unpack_shading_point(load_layer(pixel, LAYER_POSITION), load_layer(pixel, LAYER_NORMALS),
+                             load_layer(pixel, LAYER_DIFFUSE), load_layer(pixel, LAYER_SPECULAR));
+    return p.position_error >= 0.0f;
 }

@@ -7,7 +7,6 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = UNIT_PASS_A) uniform sampler2D frame_radiance;
 layout(binding = UNIT_PASS_B) uniform usampler2D seen_triangles;
-layout(binding = UNIT_EMISSION) uniform sampler2D gbuffer_emission;
 layout(binding = 0, rgba8) writeonly uniform image2D out_picture;
 uniform float exposure_scale;
 
@@ -49,15 +48,15 @@ vec3 view_colour(ivec2 pixel) {
 #if defined(TARN_VIEW_LUMINANCE)
     return luminance_colour(texelFetch(frame_radiance, pixel, 0).xyz);
 #elif defined(TARN_VIEW_ALBEDO)
-    return srgb_from_linear3(texelFetch(gbuffer_diffuse, pixel, 0).xyz + texelFetch(gbuffer_specular, pixel, 0).xyz);
+    return srgb_from_linear3(load_layer(pixel, LAYER_DIFFUSE).xyz + load_layer(pixel, LAYER_SPECULAR).xyz);
 #elif defined(TARN_VIEW_EMISSION)
-    return display_colour(texelFetch(gbuffer_emission, pixel, 0).xyz, exposure_scale);
+    return display_colour(load_layer(pixel, LAYER_EMISSION).xyz, exposure_scale);
 #elif defined(TARN_VIEW_GEOMETRIC_NORMALS)
-    return direction_colour(texelFetch(gbuffer_normals, pixel, 0).xy, is_seen);
+    return direction_colour(load_layer(pixel, LAYER_NORMALS).xy, is_seen);
 #elif defined(TARN_VIEW_SHADING_NORMALS)
-    return direction_colour(texelFetch(gbuffer_normals, pixel, 0).zw, is_seen);
+    return direction_colour(load_layer(pixel, LAYER_NORMALS).zw, is_seen);
 #elif defined(TARN_VIEW_POSITION_ERROR)
-    return position_error_colour(texelFetch(gbuffer_position, pixel, 0).w);
+    return position_error_colour(load_layer(pixel, LAYER_POSITION).w);
 #elif defined(TARN_VIEW_PRIMITIVES)
     return is_seen ? primitive_colour(seen) : vec3(0.0f);
 #else

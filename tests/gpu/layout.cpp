@@ -226,6 +226,12 @@ TEST_F(BlockLayout, TheFrameBlockHasTheDriversOffsets) {
         {"frame_camera_forward", offsetof(FrameBlock, frame_camera_forward)},
         {"frame_size", offsetof(FrameBlock, frame_size)},
         {"frame_lights", offsetof(FrameBlock, frame_lights)},
+        {"frame_previous_position", offsetof(FrameBlock, frame_previous_position)},
+        {"frame_previous_right", offsetof(FrameBlock, frame_previous_right)},
+        {"frame_previous_up", offsetof(FrameBlock, frame_previous_up)},
+        {"frame_previous_forward", offsetof(FrameBlock, frame_previous_forward)},
+        {"frame_history", offsetof(FrameBlock, frame_history)},
+        {"frame_tables", offsetof(FrameBlock, frame_tables)},
     };
     for (const auto& [name, offset] : members) {
         const GLuint index = glGetProgramResourceIndex(program.id(), GL_UNIFORM, name);

@@ -196,13 +196,14 @@ inline Record light_record() {
 }
 
 inline Record reservoir_record() {
-    Record r{"reservoir", RESERVOIR_ROWS, "uffff", {}, {}, {}, {}};
+    Record r{"reservoir", RESERVOIR_ROWS, "ufffffff", {}, {}, {}, {}};
     r.glsl_unpack = R"(
         Reservoir r = unpack_reservoir(row(0u), row(1u));
-        put(r.chosen.light); put(r.chosen.uv); put(r.contribution_weight); put(r.confidence);)";
+        put(r.chosen.light); put(r.chosen.uv); put(r.contribution_weight); put(r.confidence);
+        put(r.target); put(r.visibility); put(r.age);)";
     r.glsl_pack = R"(
         Reservoir r; r.chosen.light = take(); r.chosen.uv = take2(); r.contribution_weight = take1();
-        r.confidence = take1();
+        r.confidence = take1(); r.target = take1(); r.visibility = take1(); r.age = take1();
         uvec4 a, b; pack_reservoir(r, a, b); store(0u, a); store(1u, b);)";
     r.pack = [](FieldReader& in, glm::uvec4* rows) {
         Reservoir reservoir;
@@ -210,6 +211,9 @@ inline Record reservoir_record() {
         reservoir.chosen.uv = in.take2();
         reservoir.contribution_weight = in.take1();
         reservoir.confidence = in.take1();
+        reservoir.target = in.take1();
+        reservoir.visibility = in.take1();
+        reservoir.age = in.take1();
         pack_reservoir(reservoir, rows[0], rows[1]);
     };
     r.unpack = [](const glm::uvec4* rows, FieldWriter& out) {
@@ -218,6 +222,9 @@ inline Record reservoir_record() {
         out.put(reservoir.chosen.uv);
         out.put(reservoir.contribution_weight);
         out.put(reservoir.confidence);
+        out.put(reservoir.target);
+        out.put(reservoir.visibility);
+        out.put(reservoir.age);
     };
     return r;
 }

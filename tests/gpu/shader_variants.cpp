@@ -57,9 +57,33 @@ bool is_graphics(const std::string& pass) {
     return std::filesystem::exists(get_shader_root() / "passes" / (pass + ".vert"));
 }
 
+bool is_reuse(const std::string& pass) {
+    return pass == "direct/temporal" || pass == "direct/spatial";
+}
+
+// Every mode of reuse, in both of its runs, as first and as last step.
+std::vector<Defines> list_reuse_modes() {
+    std::vector<Defines> result;
+    for (const char* mis : {"TARN_MIS=0", "TARN_MIS=1", "TARN_MIS=2", "TARN_MIS=3"}) {
+        for (const char* mis_visibility : {"TARN_MIS_VISIBILITY=0", "TARN_MIS_VISIBILITY=1"}) {
+            for (const char* visibility :
+                 {"TARN_SAMPLE_VISIBILITY=0", "TARN_SAMPLE_VISIBILITY=1", "TARN_SAMPLE_VISIBILITY=2"}) {
+                for (const Defines& run :
+                     {Defines{}, Defines{"TARN_LAST_STEP"}, Defines{"TARN_WRITE_RAYS"}}) {
+                    result.push_back(Defines{mis, mis_visibility, visibility} + run);
+                }
+            }
+        }
+    }
+    return result;
+}
+
 // Variants of one pass besides what the scene has.
 std::vector<Defines> list_own_variants(const std::string& pass) {
-    if (pass == "direct/candidates") return {{"TARN_DIRECT_UNIFORM"}, {"TARN_DIRECT_RIS"}};
+    if (pass == "direct/candidates")
+        return {{"TARN_SELECT_UNIFORM"}, {"TARN_SELECT_POWER"}, {"TARN_SELECT_TILES"}};
+    if (pass == "direct/shade") return {{}, {"TARN_RESERVOIR_VISIBILITY", "TARN_ONE_CHANNEL", "TARN_ADD"}};
+    if (is_reuse(pass)) return {{"TARN_MIS=2", "TARN_MIS_VISIBILITY=1", "TARN_SAMPLE_VISIBILITY=0"}};
     if (pass == "gbuffer/raster") return {{}, {"TARN_COVERAGE"}};
     return {{}};
 }
@@ -98,10 +122,28 @@ TEST_P(ShaderVariants, AllCompile) {
     }
     EXPECT_EQ(programs_.program_count(), list_own_variants(GetParam()).size() * list_scene_variants().size());
     // What tests plant must compile too, or they would find the wrong fault.
-    for (const char* bug : {"TARN_PLANT_DROP_PDF", "TARN_PLANT_DROP_COSINE", "TARN_PLANT_SHIFT_LIGHT"}) {
-        compile({"TARN_TRIANGLE_LIGHTS", bug});
+    for (const char* bug :
+         {"TARN_PLANT_DROP_PDF", "TARN_PLANT_DROP_COSINE", "TARN_PLANT_SHIFT_LIGHT",
+          "TARN_PLANT_SKIP_CONFIDENCE", "TARN_PLANT_COUNT_DEAD", "TARN_PLANT_TARGET_AT_NEIGHBOUR",
+          "TARN_PLANT_DROP_NORMALIZATION", "TARN_PLANT_PREVIOUS_NORMAL", "TARN_CHECK_MIS"}) {
+        compile(Defines{"TARN_TRIANGLE_LIGHTS", bug} + list_own_variants(GetParam()).front());
     }
 }
+
+// The modes of reuse over a scene that has and does everything.
+class ReuseVariants : public ShaderVariants {};
+
+TEST_P(ReuseVariants, AllModesCompile) {
+    const Defines scene = {"TARN_TEXTURES",        "TARN_NORMAL_MAPS",     "TARN_ENVIRONMENT",
+                           "TARN_PUNCTUAL_LIGHTS", "TARN_TRIANGLE_LIGHTS", "TARN_COVERED_LIGHTS",
+                           "TARN_TEXTURED_LIGHTS", "TARN_MOTION",          "TARN_LIGHT_HISTORY"};
+    for (const Defines& mode : list_reuse_modes()) compile(scene + mode);
+}
+
+INSTANTIATE_TEST_SUITE_P(Passes, ReuseVariants, testing::Values("direct/temporal", "direct/spatial"),
+                         [](const auto& info) {
+                             return info.param == "direct/temporal" ? "temporal" : "spatial";
+                         });
 
 INSTANTIATE_TEST_SUITE_P(Passes, ShaderVariants, testing::ValuesIn(list_passes()), [](const auto& info) {
     std::string name = info.param;
@@ -111,8 +153,8 @@ INSTANTIATE_TEST_SUITE_P(Passes, ShaderVariants, testing::ValuesIn(list_passes()
 
 TEST(ShaderVariantList, NamesEveryPassOfTheFolder) {
     const std::set<std::string> passes = list_passes();
-    for (const char* known :
-         {"direct/candidates", "direct/shade", "display", "gbuffer/raster", "gbuffer/resolve"}) {
+    for (const char* known : {"direct/candidates", "direct/temporal", "direct/spatial", "direct/shade",
+                              "display", "gbuffer/raster", "gbuffer/resolve"}) {
         EXPECT_TRUE(passes.contains(known)) << known;
     }
 }

@@ -97,7 +97,7 @@ class DirectLight : public testing::TestWithParam<const char*> {
         Renderer renderer(scene_->world, *scene_->tracer, WIDTH_PX, HEIGHT_PX);
         FrameInput input;
         input.camera = camera_;
-        const auto positions = renderer.render(input).gbuffer.position.download<glm::vec4>();
+        const auto positions = renderer.render(input).gbuffer.position().download<glm::vec4>();
         const double draws = double(input.settings.candidates) * FRAMES * SEEDS;
         SceneAccess access(scene_->world);
         std::set<std::uint32_t> found;

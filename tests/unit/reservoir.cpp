@@ -180,10 +180,11 @@ TEST(Reservoir, ASumBeyondSinglePrecisionFinishesToNothing) {
     const Reservoir r = finish_reservoir(live, 2.0f);
     EXPECT_EQ(r.contribution_weight, 0.0f);
     EXPECT_EQ(r.chosen.light, INVALID_INDEX);
+    EXPECT_EQ(r.confidence, 2.0f) << "the candidates were looked at";
 }
 
 TEST(ReservoirRecord, RoundTripKeepsEveryBit) {
-    const Reservoir r{{123456u, vec2(0.25f, -0.5f)}, 7.5f, 32.0f};
+    const Reservoir r{{123456u, vec2(0.25f, -0.5f)}, 7.5f, 32.0f, 0.5f, 0.75f, 3.0f};
     uvec4 rows[RESERVOIR_ROWS];
     pack_reservoir(r, rows[0], rows[1]);
     const Reservoir back = unpack_reservoir(rows[0], rows[1]);
@@ -191,6 +192,9 @@ TEST(ReservoirRecord, RoundTripKeepsEveryBit) {
     EXPECT_EQ(back.chosen.uv, r.chosen.uv);
     EXPECT_EQ(back.contribution_weight, r.contribution_weight);
     EXPECT_EQ(back.confidence, r.confidence);
+    EXPECT_EQ(back.target, r.target);
+    EXPECT_EQ(back.visibility, r.visibility);
+    EXPECT_EQ(back.age, r.age);
 }
 
 }  // namespace

@@ -45,10 +45,29 @@ nlohmann::json describe_settings(const RenderOptions& options, const Renderer& r
     return settings;
 }
 
+// Added before the settings themselves: CLI11 calls back in the order of addition, so that a setting changes
+// the preset and never the other way round.
+void add_preset_option(CLI::App& command, RenderOptions& options) {
+    std::string sentence = "Start from a named set of settings";
+    for (const Preset& preset : preset_table()) {
+        sentence += fmt::format("{}{}: {}", &preset == preset_table().data() ? " [" : "; ", preset.name,
+                                preset.sentence);
+    }
+    const auto apply = [&options](const std::string& name) {
+        try {
+            options.settings = find_preset(name).settings;
+        } catch (const Error& error) {
+            throw CLI::ValidationError(error.what());
+        }
+    };
+    command.add_option_function<std::string>("--preset", apply, sentence + "]");
+}
+
 }  // namespace
 
 void add_render_options(CLI::App& command, RenderOptions& options) {
     add_scene_options(command, options.scene);
+    add_preset_option(command, options);
     for (const Setting& setting : setting_table()) {
         std::string sentence = setting.sentence;
         if (setting.choices.empty()) {

@@ -1,18 +1,27 @@
-// Chooses one light sample a pixel and writes the shadow ray that asks whether it is seen.
+// Chooses one light sample a pixel and writes the shadow ray that asks whether it is seen: streaming resampled
+// importance sampling (Talbot 2005; Bitterli et al. 2020, algorithm 3) over `candidate_count` candidates; target =
+// `target_weights` . (BRDF x Le x G). One candidate alone is plain importance sampling.
 //
-// TARN_DIRECT_UNIFORM: one light with equal probability, a place on it by area. The baseline.
-// TARN_DIRECT_RIS: streaming resampled importance sampling (Talbot 2005; Bitterli et al. 2020, algorithm 3): M
-// candidates by power, a quarter of them from the sky where there is one; target = luminance of BRDF x Le x G.
+// How a candidate finds its light:
+//   TARN_SELECT_UNIFORM  every light alike, the sky being one of them
+//   TARN_SELECT_POWER    by power, a quarter of the candidates from the sky where there is one
+//   TARN_SELECT_TILES    as by power, out of a tile of samples drawn in advance (direct/light_tiles)
+//   TARN_SELECT_TREE     by a walk down the light tree, the sky as above
 #include "lib/scene_buffers.glsl"
 #include "lib/frame.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/counters.glsl"
-#include "shared/math/shadow_ray.h"
+#include "lib/receiver.glsl"
+#ifdef TARN_SELECT_TILES
+#include "lib/light_tiles.glsl"
+#endif
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(std430, binding = 0) writeonly buffer Reservoirs { uvec4 out_reservoirs[]; };
 layout(std430, binding = 1) writeonly buffer Rays { uvec4 out_rays[]; };
+
+uniform uint candidate_count;
 
 void store(uint pixel, Reservoir reservoir, RayRecord ray) {
     uvec4 row0, row1;
@@ -26,52 +35,71 @@ void store(uint pixel, Reservoir reservoir, RayRecord ray) {
 
 // What the loop over candidates works on.
 struct Stream {
-    ShadingPoint point;
-    Frame frame;
-    vec3 view_local;
+    Receiver receiver;
+    ivec2 pixel;
     RandomKey key;
-    uint count;
     LiveReservoir live;
 };
 
-// Offers candidate `i`, drawn with `c.pdf`, with resampling weight target / (pdf * count).
-void offer(inout Stream s, LightCandidate c, uint i) {
+// Offers candidate `i`, drawn with `c.pdf`, which sends `incident`: resampling weight target / (pdf * count).
+void offer_incident(inout Stream s, LightCandidate c, IncidentLight incident, uint i) {
 #ifdef TARN_PLANT_DROP_PDF
     c.pdf = 1.0f;
 #endif
+    float target = target_at(s.receiver, incident);
+    float weight = target == 0.0f ? 0.0f : target / (c.pdf * float(candidate_count));
+    float u = random4(s.key, DIMENSION_CHOICE + i).x;
+    if (!offer_candidate(s.live, c.drawn, target, weight, u)) count_event(COUNTER_BAD_WEIGHT);
+}
+
+void offer(inout Stream s, LightCandidate c, uint i) {
 #ifdef TARN_PLANT_SHIFT_LIGHT
     if (c.drawn.light < get_light_count()) {
         c.drawn.light = (c.drawn.light + (get_light_count() + 1u) / 2u) % get_light_count();
     }
 #endif
-    IncidentLight incident = load_incident_light(c.drawn, s.point.position);
-    float target = target_function(reflect_light(s.point, s.frame, s.view_local, incident));
-    float weight = target == 0.0f ? 0.0f : target / (c.pdf * float(s.count));
-    float u = random4(s.key, DIMENSION_CHOICE + i).x;
-    if (!offer_candidate(s.live, c.drawn, target, weight, u)) count_event(COUNTER_BAD_WEIGHT);
+    offer_incident(s, c, load_incident_light(c.drawn, s.receiver.point.position), i);
 }
 
-#ifdef TARN_DIRECT_UNIFORM
-uint candidate_count() { return 1u; }
-
-void offer_all(inout Stream s) { offer(s, draw_light_uniformly(random_bits4(s.key, DIMENSION_CANDIDATE)), 0u); }
+#ifdef TARN_SELECT_UNIFORM
+void offer_all(inout Stream s) {
+    for (uint i = 0u; i < candidate_count; ++i) {
+        offer(s, draw_light_uniformly(random_bits4(s.key, DIMENSION_CANDIDATE + i)), i);
+    }
+}
 #else
-uint candidate_count() { return frame_lights.w; }
-
-// How many of `count` candidates go to the sky: its share, rounded up or down at random, alike for all pixels of a
-// frame. Each kind of light has a loop of its own, since a software GPU runs both sides of a branch.
-uint sky_candidate_count(uint count) {
+// How many candidates go to the sky: its share, rounded up or down at random, alike for all pixels of a frame. Each
+// kind of light has a loop of its own, since a software GPU runs both sides of a branch.
+uint sky_candidate_count() {
     RandomKey key;
     key.pixel = 0u;
     key.frame = frame_size.z;
     key.seed = frame_size.w;
     float shift = random4(key, DIMENSION_SELECT).x;
-    return min(count, uint(floor(float(count) * environment_probability() + shift)));
+    return min(candidate_count, uint(floor(float(candidate_count) * environment_probability() + shift)));
+}
+
+void offer_light(inout Stream s, uint i, float share) {
+    uvec4 bits = random_bits4(s.key, DIMENSION_CANDIDATE + i);
+#if defined(TARN_SELECT_TILES)
+    Light light;
+    LightCandidate c = load_tile_candidate(s.pixel, bits.x, light);
+    c.pdf *= share;
+    offer_incident(s, c, incident_from_light(light, c.drawn.uv, s.receiver.point.position), i);
+#elif defined(TARN_SELECT_TREE)
+    LightCandidate c = draw_light_by_tree(bits, s.receiver.point.position, s.receiver.point.geometric_normal);
+    c.pdf *= share;
+    if (c.pdf > 0.0f) offer(s, c, i);
+#else
+    LightCandidate c = draw_light_by_power(bits);
+    c.pdf *= share;
+    offer(s, c, i);
+#endif
 }
 
 void offer_all(inout Stream s) {
     float share = environment_probability();
-    uint sky_count = SCENE_HAS_ENVIRONMENT ? sky_candidate_count(s.count) : 0u;
+    uint sky_count = SCENE_HAS_ENVIRONMENT ? sky_candidate_count() : 0u;
     if (SCENE_HAS_ENVIRONMENT) {
         for (uint i = 0u; i < sky_count; ++i) {
             LightCandidate c = draw_environment(random_bits4(s.key, DIMENSION_CANDIDATE + i));
@@ -80,35 +108,25 @@ void offer_all(inout Stream s) {
         }
     }
     if (get_light_count() > 0u) {
-        for (uint i = sky_count; i < s.count; ++i) {
-            LightCandidate c = draw_light_by_power(random_bits4(s.key, DIMENSION_CANDIDATE + i));
-            c.pdf *= 1.0f - share;
-            offer(s, c, i);
-        }
+        for (uint i = sky_count; i < candidate_count; ++i) offer_light(s, i, 1.0f - share);
     }
 }
 #endif
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (is_outside(pixel)) return;
     Stream s;
-    if (!load_shading_point(pixel, s.point)) {
-        store(pixel_index(pixel), empty_reservoir(), inactive_ray());
+    s.pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (is_outside(s.pixel)) return;
+    if (!load_receiver(s.pixel, s.receiver)) {
+        store(pixel_index(s.pixel), empty_reservoir(), inactive_ray());
         return;
     }
-    s.key = pixel_key(pixel);
-    s.frame = make_frame(s.point.shading_normal);
-    s.view_local = to_local(s.frame, -pixel_ray(pixel).direction);
-    s.count = candidate_count();
+    s.key = pixel_key(s.pixel);
     s.live = empty_live_reservoir();
     offer_all(s);
-    Reservoir reservoir = finish_reservoir(s.live, float(s.count));
+    Reservoir reservoir = finish_reservoir(s.live, float(candidate_count));
     if (s.live.weight_sum > 0.0f && reservoir.contribution_weight == 0.0f) count_event(COUNTER_BAD_RESERVOIR);
     RayRecord ray = inactive_ray();
-    if (reservoir.contribution_weight > 0.0f) {
-        IncidentLight incident = load_incident_light(reservoir.chosen, s.point.position);
-        ray = make_shadow_ray(s.point, incident, load_light_error(reservoir.chosen), pixel_index(pixel));
-    }
-    store(pixel_index(pixel), reservoir, ray);
+    if (reservoir.contribution_weight > 0.0f) ray = sample_ray(s.receiver, reservoir.chosen, s.pixel);
+    store(pixel_index(s.pixel), reservoir, ray);
 }

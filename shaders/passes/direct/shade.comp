@@ -1,34 +1,57 @@
 // Lights each pixel with its reservoir's sample: emission + BRDF x Le x G x visibility x contribution weight.
+//
+// TARN_RESERVOIR_VISIBILITY: visibility is what the reservoir knows; else a ray was traced for it.
+// TARN_ONE_CHANNEL: the sample stands for the channel of `target_weights` alone. TARN_ADD: to what is there already.
 #include "lib/scene_buffers.glsl"
 #include "lib/frame.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/counters.glsl"
+#include "lib/receiver.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(binding = UNIT_EMISSION) uniform sampler2D gbuffer_emission;
 layout(binding = UNIT_PASS_A) uniform usamplerBuffer reservoirs;
 layout(binding = UNIT_PASS_B) uniform samplerBuffer visibility;
-layout(binding = 0, rgba32f) writeonly uniform image2D out_radiance;
+layout(binding = 0, rgba32f) uniform image2D radiance_image;
+
+float load_visibility(ivec2 pixel, Reservoir reservoir) {
+#ifdef TARN_RESERVOIR_VISIBILITY
+    return reservoir.visibility;
+#else
+    return texelFetch(visibility, int(pixel_index(pixel))).x;
+#endif
+}
+
+vec3 direct_light(ivec2 pixel, Receiver receiver) {
+    int row = int(pixel_index(pixel) * RESERVOIR_ROWS);
+    Reservoir reservoir = unpack_reservoir(texelFetch(reservoirs, row), texelFetch(reservoirs, row + 1));
+    float visible = load_visibility(pixel, reservoir);
+#ifdef TARN_SHOW_VISIBILITY
+    return reservoir.contribution_weight > 0.0f ? vec3(visible) : vec3(0.0f);
+#endif
+    vec3 reflected = reflect_at(receiver, load_incident_light(reservoir.chosen, receiver.point.position));
+#ifdef TARN_ONE_CHANNEL
+    reflected *= target_weights;
+#endif
+    return reflected * (reservoir.contribution_weight * visible);
+}
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (is_outside(pixel)) return;
-    vec3 radiance = texelFetch(gbuffer_emission, pixel, 0).xyz;
-    ShadingPoint p;
-    if (load_shading_point(pixel, p)) {
-        int row = int(pixel_index(pixel) * RESERVOIR_ROWS);
-        Reservoir reservoir = unpack_reservoir(texelFetch(reservoirs, row), texelFetch(reservoirs, row + 1));
-        float visible = texelFetch(visibility, int(pixel_index(pixel))).x;
-        Frame frame = make_frame(p.shading_normal);
-        vec3 view_local = to_local(frame, -pixel_ray(pixel).direction);
-        IncidentLight incident = load_incident_light(reservoir.chosen, p.position);
-        vec3 reflected = reflect_light(p, frame, view_local, incident);
-        radiance += reflected * (reservoir.contribution_weight * visible);
-    }
+#ifdef TARN_ADD
+    vec3 radiance = imageLoad(radiance_image, pixel).xyz;
+#else
+    vec3 radiance = load_layer(pixel, LAYER_EMISSION).xyz;
+#ifdef TARN_SHOW_VISIBILITY
+    radiance = vec3(0.0f);
+#endif
+#endif
+    Receiver receiver;
+    if (load_receiver(pixel, receiver)) radiance += direct_light(pixel, receiver);
     if (!is_finite3(radiance)) {
         count_event(COUNTER_BAD_RADIANCE);
         radiance = vec3(0.0f);
     }
-    imageStore(out_radiance, pixel, vec4(radiance, 1.0f));
+    imageStore(radiance_image, pixel, vec4(radiance, 1.0f));
 }

@@ -1,12 +1,13 @@
 // From the seen triangle to the surface: the pixel's ray is intersected with it again, so that the position is the
 // one that rays meet, and every texture is read once a pixel, whatever the overdraw.
 //
-// The G-buffer, all RGBA32F:
+// The G-buffer, one layer each (LAYER_*), all RGBA32F:
 //   position  relative to the world's origin, and the bound on its rounding error (-1: nothing to be lit here)
 //   normals   geometric and shading normal, octahedral
 //   diffuse   diffuse albedo, GGX alpha
 //   specular  F0, F90
 //   emission  radiance towards the viewer (the sky where nothing is seen)
+//   motion    where the surface was in the last frame, relative to the world's origin (TARN_MOTION alone)
 #include "lib/scene_buffers.glsl"
 #include "lib/frame.glsl"
 
@@ -18,6 +19,18 @@ layout(binding = 1, rgba32f) writeonly uniform image2D out_normals;
 layout(binding = 2, rgba32f) writeonly uniform image2D out_diffuse;
 layout(binding = 3, rgba32f) writeonly uniform image2D out_specular;
 layout(binding = 4, rgba32f) writeonly uniform image2D out_emission;
+#ifdef TARN_MOTION
+layout(binding = 5, rgba32f) writeonly uniform image2D out_motion;
+
+// The instances of the last frame follow those of this one; theirs are its vertices too (GpuScene).
+vec3 load_previous_position(uvec2 seen, vec2 barycentrics) {
+    InstanceRecord instance = load_instance(seen.x + frame_history.x);
+    uvec3 vertices = load_vertex_indices(instance, seen.y);
+    vec3 position_os = interpolate3(load_position_os(vertices.x), load_position_os(vertices.y),
+                                    load_position_os(vertices.z), barycentrics);
+    return transform_point(instance, position_os);
+}
+#endif
 
 // Barycentrics where the ray meets the triangle's plane, kept within the triangle: the rasterizer's pixel may lie a
 // 256th of a pixel outside.
@@ -74,4 +87,7 @@ void main() {
     }
     vec2 barycentrics = intersect_triangle(ray, seen.x, seen.y);
     store_surface(pixel, evaluate_surface(seen.x, seen.y, barycentrics, ray.direction));
+#ifdef TARN_MOTION
+    imageStore(out_motion, pixel, vec4(load_previous_position(seen, barycentrics), 0.0f));
+#endif
 }

@@ -12,16 +12,25 @@
 #define UNIT_ENVIRONMENT_TEXELS 7
 #define UNIT_ENVIRONMENT_ALIAS 8
 
-// Texture units 9-13: the G-buffer.
-#define UNIT_POSITION 9
-#define UNIT_NORMALS 10
-#define UNIT_DIFFUSE 11
-#define UNIT_SPECULAR 12
-#define UNIT_EMISSION 13
+// Texture units 9-10: the surfaces that this frame and the one before see (a stack of images each).
+#define UNIT_SURFACE 9
+#define UNIT_PREVIOUS_SURFACE 10
 
-// Texture units 14-15: what the pass itself reads. GL 4.5 promises no more than 16 units a stage.
-#define UNIT_PASS_A 14
-#define UNIT_PASS_B 15
+// Texture units 11-15: what the pass itself reads. GL 4.5 promises no more than 16 units a stage.
+#define UNIT_PASS_A 11
+#define UNIT_PASS_B 12
+#define UNIT_PASS_C 13
+#define UNIT_PASS_D 14
+#define UNIT_PASS_E 15
+
+// Layers of a surface stack; what they hold: shaders/passes/gbuffer/resolve.comp.
+#define LAYER_POSITION 0
+#define LAYER_NORMALS 1
+#define LAYER_DIFFUSE 2
+#define LAYER_SPECULAR 3
+#define LAYER_EMISSION 4
+#define LAYER_MOTION 5
+#define LAYER_COUNT 6
 
 #define BLOCK_COUNTERS 7
 #define BLOCK_FRAME 0

@@ -14,15 +14,25 @@ struct FrameBlock {
     vec4 frame_camera_position;  // relative to the world's origin; w = 1 for an orthographic camera
     vec4 frame_camera_right;
     vec4 frame_camera_up;
-    vec4 frame_camera_forward;  // w = near (perspective) or depth range (orthographic), metres
-    uvec4 frame_size;           // width, height in pixels; frame number; seed
-    uvec4 frame_lights;         // light count; environment width, height; RIS candidates
+    vec4 frame_camera_forward;     // w = near (perspective) or depth range (orthographic), metres
+    uvec4 frame_size;              // width, height in pixels; frame number; seed
+    uvec4 frame_lights;            // light count; environment width, height; RIS candidates
+    vec4 frame_previous_position;  // the last frame's camera, as above
+    vec4 frame_previous_right;
+    vec4 frame_previous_up;
+    vec4 frame_previous_forward;
+    uvec4 frame_history;  // first previous instance; first row of the previous lights; first row of the light
+                          // remap or INVALID_INDEX where every light kept its index; 1 where there is a last
+                          // frame
+    uvec4 frame_tables;   // first row of the light tree, its node count
 };
 
 // Places in the counter buffer; names in Renderer::read_counters.
 CONSTANT uint COUNTER_BAD_WEIGHT = 0u;     // candidate weights that were negative or not finite
 CONSTANT uint COUNTER_BAD_RADIANCE = 1u;   // pixels whose radiance was not finite and became black
 CONSTANT uint COUNTER_BAD_RESERVOIR = 2u;  // reservoirs emptied because their weight was not finite
-CONSTANT uint COUNTER_COUNT = 3u;
+CONSTANT uint COUNTER_BAD_HISTORY = 3u;  // reservoirs of the last frame that were not finite and were dropped
+CONSTANT uint COUNTER_MIS_SUM = 4u;      // samples whose MIS weights did not sum to 1 (TARN_CHECK_MIS alone)
+CONSTANT uint COUNTER_COUNT = 5u;
 
 SHARED_END

@@ -59,11 +59,15 @@ FN float random_coverage(RandomKey key, uint ray, uint instance, uint primitive)
 }
 
 // Dimensions: each use has a range of its own, so that no two decisions share a number.
-CONSTANT uint DIMENSION_SELECT = 0u;      // direct light: once a frame
-CONSTANT uint DIMENSION_CANDIDATE = 16u;  // + candidate index, below 1024
-CONSTANT uint DIMENSION_CHOICE = 2048u;   // + candidate index: whether it replaces the one before
-CONSTANT uint DIMENSION_PIXEL = 4096u;    // reference: position within the pixel
-CONSTANT uint DIMENSION_BOUNCE = 8192u;   // reference: + 8 * bounce
+CONSTANT uint DIMENSION_SELECT = 0u;       // direct light: once a frame
+CONSTANT uint DIMENSION_CANDIDATE = 16u;   // + candidate index, below 1024
+CONSTANT uint DIMENSION_TEMPORAL = 1088u;  // reuse over time: the choice; once a frame: the permutation
+CONSTANT uint DIMENSION_SPATIAL = 1152u;   // + 16 * iteration + neighbour: its place and whether it replaces
+CONSTANT uint DIMENSION_TILE = 1280u;      // which light tile a group of pixels draws from
+CONSTANT uint DIMENSION_BRDF = 1344u;      // + index of the candidate drawn from the BRDF
+CONSTANT uint DIMENSION_CHOICE = 2048u;    // + candidate index: whether it replaces the one before
+CONSTANT uint DIMENSION_PIXEL = 4096u;     // reference: position within the pixel
+CONSTANT uint DIMENSION_BOUNCE = 8192u;    // reference: + 8 * bounce
 CONSTANT uint RAY_CAMERA = 0u;
 CONSTANT uint RAY_SHADOW = 1u;
 CONSTANT uint RAY_BOUNCE = 2u;  // reference: + bounce

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "shared/dialect.h"
+#include "shared/math/packing.h"
 
 SHARED_BEGIN
 
@@ -27,6 +28,9 @@ struct Reservoir {
     LightSample chosen;
     float contribution_weight;  // W; 0: the reservoir holds nothing
     float confidence;           // M, in candidates
+    float target;               // p-hat of its pixel at the chosen sample, when W was found
+    float visibility;  // of the chosen sample from its pixel, or an estimate of it (V-bar); 1 until traced
+    float age;         // frames since the chosen sample was drawn
 };
 
 FN LightSample no_light_sample() {
@@ -49,6 +53,9 @@ FN Reservoir empty_reservoir() {
     r.chosen = no_light_sample();
     r.contribution_weight = 0.0f;
     r.confidence = 0.0f;
+    r.target = 0.0f;
+    r.visibility = 1.0f;
+    r.age = 0.0f;
     return r;
 }
 
@@ -66,13 +73,16 @@ FN bool offer_candidate(INOUT(LiveReservoir) r, LightSample candidate, float tar
     return true;
 }
 
-// W = weight_sum / target. `confidence`: candidates seen.
+// W = weight_sum / target. `confidence`: candidates seen. A weight that is not finite leaves no sample, but
+// confidence: that many candidates were looked at and it is their sum that was lost.
 FN Reservoir finish_reservoir(LiveReservoir live, float confidence) {
-    Reservoir r;
-    r.chosen = live.chosen;
-    r.contribution_weight = ratio_or_zero(live.weight_sum, live.target);
+    Reservoir r = empty_reservoir();
     r.confidence = confidence;
-    if (!is_finite(r.contribution_weight)) r = empty_reservoir();
+    float weight = ratio_or_zero(live.weight_sum, live.target);
+    if (!is_finite(weight) || weight == 0.0f) return r;
+    r.chosen = live.chosen;
+    r.contribution_weight = weight;
+    r.target = live.target;
     return r;
 }
 
@@ -81,7 +91,7 @@ CONSTANT uint RESERVOIR_ROWS = 2u;
 FN void pack_reservoir(Reservoir r, OUT(uvec4) row0, OUT(uvec4) row1) {
     row0 = uvec4(r.chosen.light, floatBitsToUint(r.chosen.uv.x), floatBitsToUint(r.chosen.uv.y),
                  floatBitsToUint(r.contribution_weight));
-    row1 = uvec4(floatBitsToUint(r.confidence), 0u, 0u, 0u);
+    row1 = pack_row4(vec4(r.confidence, r.target, r.visibility, r.age));
 }
 
 FN Reservoir unpack_reservoir(uvec4 row0, uvec4 row1) {
@@ -90,6 +100,9 @@ FN Reservoir unpack_reservoir(uvec4 row0, uvec4 row1) {
     r.chosen.uv = vec2(uintBitsToFloat(row0.y), uintBitsToFloat(row0.z));
     r.contribution_weight = uintBitsToFloat(row0.w);
     r.confidence = uintBitsToFloat(row1.x);
+    r.target = uintBitsToFloat(row1.y);
+    r.visibility = uintBitsToFloat(row1.z);
+    r.age = uintBitsToFloat(row1.w);
     return r;
 }
 

@@ -35,9 +35,10 @@ FN vec3 reflect_light(ShadingPoint p, Frame frame, vec3 view_local, IncidentLigh
 #endif
 }
 
-// The resampling target (p-hat): luminance of BRDF * Le * G, without visibility.
-FN float target_function(vec3 reflected) {
-    return luminance(reflected);
+// The resampling target (p-hat): BRDF * Le * G without visibility, its channels weighed by `weights`: those
+// of the luminance, or a single channel.
+FN float target_function(vec3 reflected, vec3 weights) {
+    return dot(reflected, weights);
 }
 
 SHARED_END

@@ -109,6 +109,13 @@ FN float load_light_error(LightSample drawn) {
         i, load_position_os(vertices.x), load_position_os(vertices.y), load_position_os(vertices.z)));
 }
 
+// What a sample at `uv` on a light of the table sends to `point`, before visibility.
+FN IncidentLight incident_from_light(Light light, vec2 uv, vec3 point) {
+    if (is_triangle(light))
+        return incident_from_triangle(light, uv, load_triangle_radiance(light, uv), point);
+    return incident_from_punctual(light, point);
+}
+
 // What `drawn` sends to `point`, before visibility.
 FN IncidentLight load_incident_light(LightSample drawn, vec3 point) {
     if (drawn.light == INVALID_INDEX) return no_incident_light();
@@ -119,11 +126,7 @@ FN IncidentLight load_incident_light(LightSample drawn, vec3 point) {
         sky.value = load_environment(sky.direction);
         return sky;
     }
-    Light light = load_light(drawn.light);
-    if (is_triangle(light)) {
-        return incident_from_triangle(light, drawn.uv, load_triangle_radiance(light, drawn.uv), point);
-    }
-    return incident_from_punctual(light, point);
+    return incident_from_light(load_light(drawn.light), drawn.uv, point);
 }
 
 // ---- Drawing

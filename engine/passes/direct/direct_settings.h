@@ -1,0 +1,73 @@
+// What direct light can be told to do; names, ranges and sentences: renderer/settings.cpp.
+#pragma once
+
+namespace tarn {
+
+enum class DirectMode {
+    UNIFORM,     // one random light, one ray
+    POWER,       // one light by its power, one ray
+    LIGHT_TREE,  // one light by a walk down the light tree, one ray
+    RIS,         // streaming RIS over many candidates, one ray for the winner
+    RESTIR,      // RIS, and samples reused over time and neighbours
+};
+
+// How a candidate finds its light.
+enum class LightSelection { UNIFORM, POWER, TILES, TREE };
+
+enum class Reuse { NONE, TEMPORAL, SPATIAL, SPATIOTEMPORAL };
+
+// Weights of a reuse step; values are those of MIS_* in shared/math/mis.h, SHARE being MIS_CONSTANT.
+enum class Mis { SHARE, COUNT, BALANCE, PAIRWISE };
+
+// How the visibility of the sample that lights a pixel is known; see lib/reuse.glsl.
+enum class SampleVisibility { TRACE, REUSE, AVERAGED };
+
+struct DirectSettings {
+    DirectMode direct = DirectMode::RIS;
+    LightSelection light_selection = LightSelection::POWER;
+    int candidates = 32;
+    Reuse reuse = Reuse::SPATIOTEMPORAL;
+    int spatial_iterations = 1;
+    int neighbours = 3;
+    double radius_px = 30.0;
+    Mis mis = Mis::PAIRWISE;
+    bool mis_visibility = false;
+    SampleVisibility visibility = SampleVisibility::TRACE;
+    bool discard_occluded = true;
+    bool per_channel = false;
+    double confidence_cap = 20.0;
+    int age_cap = 0;
+    bool permute = false;
+    bool mirror = false;
+
+    bool resamples() const { return direct == DirectMode::RIS || direct == DirectMode::RESTIR; }
+    // How candidates find their lights in this mode.
+    LightSelection selection() const {
+        if (direct == DirectMode::UNIFORM) return LightSelection::UNIFORM;
+        if (direct == DirectMode::POWER) return LightSelection::POWER;
+        if (direct == DirectMode::LIGHT_TREE) return LightSelection::TREE;
+        return light_selection;
+    }
+
+    bool uses_restir() const { return direct == DirectMode::RESTIR; }
+    bool reuses_time() const {
+        return uses_restir() && (reuse == Reuse::TEMPORAL || reuse == Reuse::SPATIOTEMPORAL);
+    }
+    bool reuses_space() const {
+        return uses_restir() && (reuse == Reuse::SPATIAL || reuse == Reuse::SPATIOTEMPORAL);
+    }
+    bool reuses() const { return reuses_time() || reuses_space(); }
+
+    // Whether the denominators of MIS trace rays, so that every kept sample is known to be seen.
+    bool traces_in_mis() const { return reuses() && mis_visibility && mis != Mis::SHARE; }
+    // Whether fresh samples are tested before anyone reuses them.
+    bool tests_fresh_samples() const {
+        return reuses() && (discard_occluded || traces_in_mis() || visibility != SampleVisibility::TRACE);
+    }
+    // Whether the chosen sample of each pixel is tested after all reuse.
+    bool traces_chosen_samples() const {
+        return !reuses() || (visibility == SampleVisibility::TRACE && !traces_in_mis());
+    }
+};
+
+}  // namespace tarn

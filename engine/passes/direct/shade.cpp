@@ -1,0 +1,29 @@
+#include "passes/direct/shade.h"
+
+#include "shared/interface/bindings.h"
+
+namespace tarn {
+
+DirectShadePass::DirectShadePass(ProgramLibrary& programs, int width_px, int height_px)
+    : programs_(programs),
+      width_px_(width_px),
+      height_px_(height_px),
+      radiance_("direct/radiance", width_px, height_px, GL_RGBA32F) {}
+
+void DirectShadePass::record(const DirectFrame& direct, const RowBuffer& reservoirs, const RowBuffer* answers,
+                             bool first) {
+    std::vector<std::string> defines = direct.defines;
+    if (answers == nullptr) defines.emplace_back("TARN_RESERVOIR_VISIBILITY");
+    if (!first) defines.emplace_back("TARN_ADD");
+    if (direct.settings.per_channel) defines.emplace_back("TARN_ONE_CHANNEL");
+    const Program& program = programs_.compute("direct/shade", defines);
+    program.set("target_weights", direct.target_weights);
+    PassRecorder pass = direct.frame.pass("direct/shade");
+    read_gbuffer(pass, direct.gbuffer).read(UNIT_PASS_A, reservoirs);
+    if (answers != nullptr) pass.read(UNIT_PASS_B, *answers);
+    pass.write_image(0, radiance_)
+        .count(BLOCK_COUNTERS, direct.counters)
+        .dispatch(program, width_px_, height_px_);
+}
+
+}  // namespace tarn

@@ -1,0 +1,20 @@
+// Direct light, reuse over time: the fresh sample of a pixel and what the same surface kept in the last
+// frame.
+#pragma once
+
+#include "passes/direct/reuse_step.h"
+
+namespace tarn {
+
+class TemporalPass {
+  public:
+    explicit TemporalPass(ReuseStep& step) : step_(step) {}
+
+    // Merges `io.in` with the last frame's `past` into `io.out`.
+    void record(const DirectFrame& direct, const ReuseStep::Io& io, const Past<RowBuffer>& past);
+
+  private:
+    ReuseStep& step_;
+};
+
+}  // namespace tarn

@@ -1,0 +1,57 @@
+// The lights in GL memory: this frame's, the last frame's, and which of them are the same.
+//
+// Reuse over time asks what a light was like in the last frame. One table holds both: the rows of
+// WorldLights, from `previous_first_row()` on those of the last frame, and, where lights came, went or
+// changed places, one row an index: (index in the last frame of light i, index now of the last frame's light
+// i), INVALID_INDEX for none.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "gl/row_buffer.h"
+#include "world/world.h"
+
+namespace tarn {
+
+class GpuLights {
+  public:
+    explicit GpuLights(const WorldLights& lights);
+
+    // Uploads what changed since the last call.
+    void update(const WorldLights& lights);
+
+    // Ends a frame: its lights become the last frame's.
+    void advance();
+
+    // Binds the rows and the tables for drawing to their texture units.
+    void bind() const;
+
+    std::uint32_t previous_first_row() const { return std::uint32_t(capacity_); }
+    // INVALID_INDEX where every light has the index that it had.
+    std::uint32_t remap_first_row() const;
+    // Whether any light ever changed: only then do shaders tell the two frames apart.
+    bool have_changed() const { return have_changed_; }
+
+  private:
+    void allocate(const WorldLights& lights);
+    void upload_all(const WorldLights& lights);
+    void copy_rows(std::size_t from_row, std::size_t to_row, std::size_t count);
+
+    std::optional<RowBuffer> rows_;
+    std::optional<RowBuffer> alias_;
+    std::size_t capacity_ = 0;  // rows for the lights of one frame
+    std::size_t row_count_ = 0;
+    std::vector<std::uint64_t> identities_;           // of the lights in rows_
+    std::vector<std::uint64_t> previous_identities_;  // of the last frame's
+    std::uint64_t revision_ = 0;
+    std::uint64_t structure_revision_ = 0;
+    std::size_t changed_first_row_ = SIZE_MAX;  // where the two frames' rows differ
+    std::size_t changed_last_row_ = 0;
+    bool differs_ = false;
+    bool remapped_ = false;
+    bool have_changed_ = false;
+};
+
+}  // namespace tarn

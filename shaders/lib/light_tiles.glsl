@@ -1,0 +1,28 @@
+// Tiles of light samples drawn in advance by power (Wyman and Panteleev 2021): candidates of neighbouring pixels then
+// come from a few rows that stay in the cache, however many lights there are. After lib/scene_buffers.glsl.
+#include "shared/interface/light_tiles.h"
+
+layout(binding = UNIT_PASS_A) uniform usamplerBuffer light_tiles;
+
+// All pixels of an 8 x 8 group share a tile.
+uint tile_of(ivec2 pixel) {
+    RandomKey key;
+    key.pixel = uint(pixel.y / 8) * ((frame_size.x + 7u) / 8u) + uint(pixel.x / 8);
+    key.frame = frame_size.z;
+    key.seed = frame_size.w;
+    return random_bits4(key, DIMENSION_TILE).x % LIGHT_TILE_COUNT;
+}
+
+// One of the tile's samples, chosen by `bits`, its density by power, and the light that it lies on.
+LightCandidate load_tile_candidate(ivec2 pixel, uint bits, out Light light) {
+    uint entry = tile_of(pixel) * LIGHT_TILE_SIZE + uniform_index(bits, LIGHT_TILE_SIZE);
+    int row = int(entry * LIGHT_TILE_ROWS);
+    light = unpack_light(texelFetch(light_tiles, row), texelFetch(light_tiles, row + 1),
+                         texelFetch(light_tiles, row + 2), texelFetch(light_tiles, row + 3));
+    uvec4 drawn = texelFetch(light_tiles, row + 4);
+    LightCandidate c;
+    c.drawn.light = drawn.x;
+    c.drawn.uv = vec2(uintBitsToFloat(drawn.y), uintBitsToFloat(drawn.z));
+    c.pdf = uintBitsToFloat(drawn.w);
+    return c;
+}
