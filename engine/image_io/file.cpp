@@ -58,6 +58,9 @@ void check_writable(const std::filesystem::path& path) {
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored))
         throw Error("{}: is a folder, not a file", path.string());
+    // A file that is renamed to the name of a pipe or a device would take its place.
+    if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
+        throw Error("{}: is not a regular file", path.string());
     if (!std::filesystem::is_directory(folder, ignored)) {
         throw Error("{}: cannot write: there is no folder {}", path.string(), folder.string());
     }

@@ -17,6 +17,8 @@ EmbreeMesh::EmbreeMesh(RTCDevice device, const World& world, const WorldInstance
                                        glm::vec4(row_xyz(world.vertex_rows[row]), 1.0f));
     }
     create(device, world, mesh, coverage_filter);
+    // Any pointer but null, see is_winding_turned.
+    if (geometry_ && flattened.mirrored) rtcSetGeometryUserData(geometry_.get(), geometry_.get());
 }
 
 void EmbreeMesh::create(RTCDevice device, const World& world, const WorldMesh& mesh,

@@ -21,6 +21,11 @@ class EmbreeMesh {
 
     RTCScene scene() const { return scene_.get(); }
 
+    // Whether triangles of the geometry with this user pointer are clockwise seen from their front.
+    static bool is_winding_turned(const void* geometry_user_pointer) {
+        return geometry_user_pointer != nullptr;
+    }
+
     // Follows the mesh's vertices: refits where they moved, rebuilds where the memory did. True if anything
     // changed.
     bool update(const World& world, const WorldMesh& mesh);

@@ -3,7 +3,8 @@
 // A hit's meaning (alpha, facing) comes from the world's own tables, by two filters. Coverage belongs to
 // geometries and is set where a mesh has an instance with an alpha test. Facing belongs to the query: camera
 // rays alone bring it along. Both see object space, where facing needs no care for mirrored instances: the
-// determinant's sign turns the normal and the winding alike.
+// determinant's sign turns the normal and the winding alike. Flattened copies lie in world space, where the
+// winding of a mirrored one is turned.
 #include <cmath>
 
 #include "rays/embree_handles.h"
@@ -50,7 +51,8 @@ void filter_back_faces(const RTCFilterFunctionNArguments* arguments) {
                                RTCHitN_Ng_z(arguments->hit, n, i));
         const glm::vec3 direction(RTCRayN_dir_x(arguments->ray, n, i), RTCRayN_dir_y(arguments->ray, n, i),
                                   RTCRayN_dir_z(arguments->ray, n, i));
-        if (dot(normal, direction) > 0.0f) arguments->valid[i] = 0;
+        const bool is_back = dot(normal, direction) > 0.0f;
+        if (is_back != EmbreeMesh::is_winding_turned(arguments->geometryUserPtr)) arguments->valid[i] = 0;
     }
 }
 

@@ -63,8 +63,8 @@ class RayTracer {
     virtual bool is_unoccluded(const RayRecord& ray, const CoverageKey& key) const = 0;
 };
 
-// Worker threads for ray tracing and the reference: at most `threads` for the life of the returned object (0:
-// one per core). Sets flush-to-zero on each worker, as Embree advises.
+// Worker threads for ray tracing and the reference: at most `threads` for the life of this object (0: one per
+// core).
 class WorkerLimit {
   public:
     explicit WorkerLimit(int threads);

@@ -39,11 +39,12 @@ void list_extensions(GltfDocument& document, Scene& scene) {
     for (const std::string& name : scene.extensions_used) {
         if (is_honoured_extension(name)) {
             scene.extensions_honoured.push_back(name);
+        } else if (name == "KHR_materials_transmission") {
+            scene.extensions_approximated.push_back(name);
+            document.warn("extension " + name + " is approximated: light goes straight through");
         } else {
             scene.extensions_ignored.push_back(name);
-            const bool approximated = name == "KHR_materials_transmission";
-            document.warn("extension " + name + " is not supported, " +
-                          (approximated ? "light goes straight through instead" : "it is ignored"));
+            document.warn("extension " + name + " is not supported, it is ignored");
         }
     }
 }

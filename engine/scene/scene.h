@@ -226,9 +226,10 @@ struct Scene {
     std::vector<NodeIndex> light_nodes;  // nodes of the scene that carry a light, in node order
     std::vector<Animation> animations;
 
-    std::vector<std::string> extensions_used;      // as the file lists them
-    std::vector<std::string> extensions_honoured;  // those of them that Tarn reads
-    std::vector<std::string> extensions_ignored;   // those of them that it does not
+    std::vector<std::string> extensions_used;          // as the file lists them
+    std::vector<std::string> extensions_honoured;      // those of them that Tarn reads
+    std::vector<std::string> extensions_approximated;  // those that it reads, but shows as something simpler
+    std::vector<std::string> extensions_ignored;       // those that it does not read
 };
 
 }  // namespace tarn

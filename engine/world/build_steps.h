@@ -17,6 +17,5 @@ void rebuild_lights(World& world, const Scene& scene, const Pose& pose);
 
 // environment.cpp
 WorldEnvironment make_environment(const Image& radiance);
-WorldEnvironment make_even_sky();
 
 }  // namespace tarn

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
 #include "world/world.h"
 
 namespace tarn {
@@ -18,6 +19,19 @@ CameraRecord make_camera(const glm::dvec3& position, const glm::dvec3& right, co
     return camera;
 }
 
+// Lengths outside this range leave double precision when they are squared.
+constexpr double MIN_AXIS = 1e-150;
+constexpr double MAX_AXIS = 1e150;
+
+void check_axes(const Scene& scene, CameraIndex index, const glm::dmat4& world_from_node) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const double length = glm::length(glm::dvec3(world_from_node[axis]));
+        if (length >= MIN_AXIS && length <= MAX_AXIS) continue;
+        throw Error("camera {} '{}': axis {} of its node has length {}, so that it looks nowhere",
+                    index.value, at(scene.cameras, index).name, "xyz"[axis], length);
+    }
+}
+
 }  // namespace
 
 std::optional<CameraRecord> scene_camera(const Scene& scene, const World& world, CameraIndex index,
@@ -26,6 +40,7 @@ std::optional<CameraRecord> scene_camera(const Scene& scene, const World& world,
     const Camera& camera = at(scene.cameras, index);
     const Pose pose = evaluate_pose(scene, time_s);
     const glm::dmat4& m = at(pose.world_from_node, camera.node);
+    check_axes(scene, index, m);
     const double half_height =
         camera.orthographic ? camera.half_height_m : std::tan(0.5 * camera.vertical_fov_rad);
     return make_camera(glm::dvec3(m[3]) - world.origin_ws, glm::dvec3(m[0]), glm::dvec3(m[1]),

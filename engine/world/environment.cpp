@@ -61,10 +61,10 @@ WorldEnvironment make_environment(const Image& radiance) {
     return environment;
 }
 
-WorldEnvironment make_even_sky() {
+Image make_even_sky(float radiance) {
     Image image(2, 2, 3);
-    std::fill(image.values.begin(), image.values.end(), 1.0f);
-    return make_environment(image);
+    std::fill(image.values.begin(), image.values.end(), radiance);
+    return image;
 }
 
 }  // namespace tarn

@@ -118,7 +118,6 @@ void add_meshes(World& world, const Scene& scene) {
         }
         world.instances.push_back(instance);
     }
-    // Embree reads 16 bytes at each position, and rows are 16 bytes: nothing to pad.
     world.instance_rows.resize(world.instances.size() * INSTANCE_ROWS);
 }
 

@@ -35,7 +35,7 @@ World build_world(const Scene& scene, const WorldOptions& options) {
     if (options.environment) {
         world.environment = make_environment(*options.environment);
     } else if (world.lights.count == 0) {
-        world.environment = make_even_sky();
+        world.environment = make_environment(make_even_sky(1.0f));
     }
     return world;
 }

@@ -98,6 +98,9 @@ struct WorldOptions {
     double time_s = -1.0;              // < 0: the rest pose
 };
 
+// A sky of the same grey radiance everywhere, for WorldOptions::environment.
+Image make_even_sky(float radiance);
+
 // Flattens a scene. Scenes without any light and without an environment get an even sky of radiance 1.
 World build_world(const Scene& scene, const WorldOptions& options = {});
 
@@ -106,7 +109,8 @@ World build_world(const Scene& scene, const WorldOptions& options = {});
 // moment.
 void update_world(World& world, const Scene& scene, double time_s);
 
-// The camera at `index` of the scene, in this pose; nullopt when there is no such camera.
+// The camera at `index` of the scene, in this pose; nullopt when there is no such camera. Throws Error where
+// its node's transform leaves it no direction: an axis of length 0, or not finite.
 std::optional<CameraRecord> scene_camera(const Scene& scene, const World& world, CameraIndex index,
                                          double aspect, double time_s);
 

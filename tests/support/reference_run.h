@@ -22,16 +22,6 @@ inline ReferenceResult run_reference(const World& world, const ReferenceSettings
     return render_reference(world, *create_embree_tracer(world), settings);
 }
 
-// A sky of the same radiance everywhere.
-inline WorldOptions even_sky(const glm::vec3& radiance) {
-    WorldOptions options;
-    options.environment = Image(16, 8, 3);
-    for (std::size_t i = 0; i < options.environment->pixel_count(); ++i) {
-        for (std::size_t c = 0; c < 3; ++c) options.environment->values[i * 3 + c] = radiance[int(c)];
-    }
-    return options;
-}
-
 // z-test of a rendered image against another, or against known values, in tiles of 8 pixels.
 inline TileTest compare_images(const ReferenceResult& a, const ReferenceResult& b) {
     return test_tiles({a.radiance, a.variance}, {b.radiance, b.variance}, 8, 1e-3);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/log.h"
@@ -25,16 +26,20 @@ inline void transform_scene(Scene& scene, const glm::dmat4& ws_from_old) {
     }
 }
 
-// A scene with all that renders it. Needs a current GL context.
+// A scene with all that renders it. Needs a current GL context. `planted` reaches every shader
+// (TARN_PLANT_*).
 class ToyRender {
   public:
-    ToyRender(Scene scene, int width_px, int height_px, const WorldOptions& options = {})
+    ToyRender(Scene scene, int width_px, int height_px, const WorldOptions& options = {},
+              std::vector<std::string> planted = {})
         : scene_(std::move(scene)),
           world_(build_world(scene_, options)),
           tracer_(create_embree_tracer(world_)),
-          renderer_(world_, *tracer_, width_px, height_px) {
+          renderer_(world_, *tracer_, width_px, height_px, std::move(planted)) {
         set_quiet(true);
     }
+
+    RenderSettings settings;  // of the next frames; their mode comes with each call
 
     const Scene& scene() const { return scene_; }
     const World& world() const { return world_; }
@@ -55,6 +60,7 @@ class ToyRender {
     Image render(const CameraRecord& camera, DirectMode mode, int frames = 1, int first_frame = 0) {
         FrameInput input;
         input.camera = camera;
+        input.settings = settings;
         input.settings.direct = mode;
         std::vector<double> sums(std::size_t(width_px()) * std::size_t(height_px()) * 3);
         for (int frame = 0; frame < frames; ++frame) {

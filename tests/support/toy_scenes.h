@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scene/scene.h"
+#include "world/world.h"
 
 namespace tarn {
 
@@ -24,6 +25,16 @@ inline Material emissive_material(const glm::vec3& radiance) {
     Material m = lambert_material(glm::vec3(0.0f));
     m.emission = radiance;
     return m;
+}
+
+// A sky of the same radiance everywhere.
+inline WorldOptions even_sky(const glm::vec3& radiance) {
+    WorldOptions options;
+    options.environment = Image(16, 8, 3);
+    for (std::size_t i = 0; i < options.environment->pixel_count(); ++i) {
+        for (std::size_t c = 0; c < 3; ++c) options.environment->values[i * 3 + c] = radiance[int(c)];
+    }
+    return options;
 }
 
 // Builds a Scene table by table. Vertices are not shared between triangles, so that normals are flat.

@@ -1,8 +1,10 @@
 // The command line as a person meets it, as far as it needs no GL: help, wrong usage (status 2), a world that
 // disappoints (status 1 and one line), Ctrl-C.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <csignal>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "image_io/image_io.h"
@@ -92,15 +94,25 @@ TEST(WrongUsage, EndsWithStatus2AndSaysWhatIsWrong) {
              render + Arguments{"--exposure", "bright"},
              render + Arguments{"--exposure", "nan"},
              render + Arguments{"--exposure", "inf"},
+             render + Arguments{"--exposure", "41"},
+             render + Arguments{"--time", "nan"},
+             render + Arguments{"--time", "inf"},
+             render + Arguments{"--time-step", "nan"},
+             render + Arguments{"--time-step", "-1"},
+             render + Arguments{"--sky", "nan"},
+             render + Arguments{"--sky", "-1"},
              reference,
              reference + Arguments{"--spp", "0"},
              reference + Arguments{"--relative-error", "-1"},
+             reference + Arguments{"--relative-error", "nan"},
              one_sample + Arguments{"--relative-error", "1"},
              one_sample + Arguments{"--bounces", "99"},
              one_sample + Arguments{"--pixel", "corner"},
              Arguments{"reference", cornell(), "--out", folder.file("a.png"), "--spp", "1"},
              Arguments{"flythrough", "--frames", "0"},
              Arguments{"compare", "a.exr"},
+             Arguments{"compare", "a.exr", "b.exr", "--exposure", "41"},
+             Arguments{"compare", "a.exr", "b.exr", "--exposure", "nan"},
              Arguments{"info"},
          }) {
         const ProcessResult result = run_tarn(arguments);
@@ -155,7 +167,28 @@ TEST(Disappointment, AFolderThatIsNotThereIsFoundBeforeTheWorkIsDone) {
                      "--frames", "100000"},
                     gone);
     expect_one_line({"reference", cornell(), "--out", gone + "/a.exr", "--spp", "1000000"}, gone);
+    expect_one_line({"compare", "a.exr", "b.exr", "--json", gone + "/a.json"}, gone);
+    expect_one_line({"compare", "a.exr", "b.exr", "--difference", gone + "/a.png"}, gone);
+    expect_one_line({"info", cornell(), "--json", gone + "/a.json"}, gone);
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(Disappointment, APipeOrDeviceIsNotReplacedByAFile) {
+    const TemporaryFolder folder;
+    const std::string pipe = folder.file("pipe");
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    expect_one_line({"info", cornell(), "--json", pipe}, pipe);
+    EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+}
+
+TEST(Disappointment, ACameraOnANodeWithoutExtentIsNamed) {
+    const TemporaryFolder folder;
+    const std::string file = folder.file("flat.gltf");
+    std::ofstream(file) << R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+        "nodes": [{"camera": 0, "scale": [1, 1, 0]}],
+        "cameras": [{"name": "flat", "type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}]})";
+    expect_one_line({"reference", file, "--out", folder.file("a.exr"), "--spp", "1", "--size", "8x8"},
+                    "camera 0 'flat': axis z");
 }
 
 TEST(Disappointment, AnUnknownCameraListsThoseThatExist) {

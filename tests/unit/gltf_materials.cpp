@@ -94,7 +94,10 @@ TEST(GltfMaterials, TransmissionBecomesPartialCoverage) {
     gltf.push("materials",
               {{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.5}}}}, {"extensions", glass}});
     gltf.push("materials", {{"alphaMode", "MASK"}, {"extensions", glass}});
+    gltf.json["extensionsUsed"] = {"KHR_materials_transmission"};
     const Scene scene = gltf.load();
+    EXPECT_EQ(scene.extensions_approximated, std::vector<std::string>{"KHR_materials_transmission"});
+    EXPECT_TRUE(scene.extensions_ignored.empty());
     EXPECT_EQ(scene.materials[0].alpha_mode, AlphaMode::BLEND);
     EXPECT_EQ(scene.materials[0].base_color.a, 0.25f);
     EXPECT_EQ(scene.materials[1].alpha_mode, AlphaMode::MASK);

@@ -169,6 +169,27 @@ TEST(Rays, camera_rays_pass_the_backs_of_single_sided_surfaces) {
     EXPECT_LE(d.borderline, 20);
 }
 
+// Transforms that Embree cannot invert (here: z goes nearly where x and y go) are multiplied into a copy of
+// the mesh, which turns the winding of mirrored ones.
+TEST(Rays, camera_rays_meet_the_fronts_of_flattened_mirrored_instances) {
+    Rng rng(11);
+    ToyScene toy;
+    const MeshIndex mesh = toy.add_mesh(toy.add_material(Material{}), random_triangles(rng, 40));
+    for (const double thickness : {1e-6, -1e-6}) {
+        glm::dmat4 m(1.0);
+        m[2] = glm::dvec4(0.8, 0.6, thickness, 0.0);
+        m[3].z = 1e6 * thickness;
+        toy.add_instance(mesh, m);
+    }
+    const World world = build_world(toy.scene);
+    ASSERT_NE(world.instances[0].mirrored, world.instances[1].mirrored);
+    const auto embree = create_embree_tracer(world);
+    const auto oracle = create_brute_force_tracer(world);
+    const Disagreements d = compare_closest(*embree, *oracle, {}, BackFaces::PASS, 6000);
+    EXPECT_GT(d.hits, 300);
+    EXPECT_EQ(d.unexplained, 0);
+}
+
 TEST(Rays, alpha_masks_and_stochastic_coverage_agree_with_the_oracle) {
     const World world = make_soup(true);
     const auto embree = create_embree_tracer(world);

@@ -157,11 +157,7 @@ ReferenceResult ReferenceCache::load(const std::string& key) const {
 
 void ReferenceCache::store(const std::string& key, const ReferenceResult& result) const {
     const std::filesystem::path picture_file = file(key, ".exr");
-    std::error_code error;
-    std::filesystem::create_directories(picture_file.parent_path(), error);
-    if (error)
-        throw Error("{}: the folder cannot be made: {}", picture_file.parent_path().string(),
-                    error.message());
+    create_folder(picture_file.parent_path());
     write_exr(picture_file, result.radiance.width, result.radiance.height, make_channels(result));
     const std::vector<unsigned char> bytes = load_file(picture_file);
     write_json(file(key, ".json"), {{"key", key},

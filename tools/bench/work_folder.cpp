@@ -1,7 +1,5 @@
 #include "bench/work_folder.h"
 
-#include <fstream>
-
 #include "core/error.h"
 #include "core/log.h"
 #include "image_io/file.h"
@@ -29,23 +27,8 @@ void warn_damaged(const std::filesystem::path& file) {
 
 }  // namespace
 
-void write_file(const std::filesystem::path& file, std::string_view bytes) {
-    write_whole(file, [&](const std::string& temporary) {
-        std::ofstream stream(temporary, std::ios::binary);
-        stream << bytes;
-        stream.close();
-        if (!stream) throw Error("{}: cannot be written", file.string());
-    });
-}
-
-void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& json) {
-    write_file(file, json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
-}
-
 WorkFolder::WorkFolder(std::filesystem::path folder, const nlohmann::json& key) : folder_(std::move(folder)) {
-    std::error_code error;
-    std::filesystem::create_directories(folder_, error);
-    if (error) throw Error("{}: the folder cannot be made: {}", folder_.string(), error.message());
+    create_folder(folder_);
     const nlohmann::json old_key = load_note(KEY_NOTE);
     if (old_key.is_null()) {
         save_note(KEY_NOTE, key);

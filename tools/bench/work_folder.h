@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "bench/sequence.h"
+#include "output/output_files.h"
 
 namespace tarn {
 
@@ -44,9 +44,5 @@ class WorkFolder {
     std::filesystem::path folder_;
     bool resumed_ = false;
 };
-
-// Writes bytes, or JSON as text, whole or not at all. Throws Error that names the file.
-void write_file(const std::filesystem::path& file, std::string_view bytes);
-void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& json);
 
 }  // namespace tarn

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -21,6 +20,8 @@
 #include "metrics/heat_map.h"
 #include "metrics/image_error.h"
 #include "metrics/ssim.h"
+#include "output/output_files.h"
+#include "scene_options.h"
 
 namespace tarn {
 namespace {
@@ -157,7 +158,7 @@ void print_table(const Pair& pair, const Comparison& comparison) {
     print_row("ssim", comparison.ssim, "Structural similarity of the displayed pictures, 1 for equal ones.");
 }
 
-void write_json(const std::filesystem::path& path, const Pair& pair, const Comparison& comparison) {
+nlohmann::ordered_json make_json(const Pair& pair, const Comparison& comparison) {
     const ImageErrors& errors = comparison.errors;
     nlohmann::ordered_json json;
     json["width"] = pair.linear_reference.width;
@@ -175,16 +176,15 @@ void write_json(const std::filesystem::path& path, const Pair& pair, const Compa
     json["flip_hdr"] = comparison.flip_hdr ? nlohmann::ordered_json(*comparison.flip_hdr) : nullptr;
     json["ssim"] = comparison.ssim;
     json["linear_scale"] = pair.scale;
-    std::ofstream stream(path);
-    stream << json.dump(2) << '\n';
-    stream.close();
-    if (!stream) throw Error("{}: cannot write the JSON file", path.string());
+    return json;
 }
 
 void run_compare(const CompareOptions& options) {
+    check_output_folder(options.json);
+    check_output_folder(options.difference);
     Pair pair = load_pair(options);
     const Comparison comparison = compare(pair);
-    if (!options.json.empty()) write_json(options.json, pair, comparison);
+    if (!options.json.empty()) write_json(options.json, make_json(pair, comparison));
     if (!options.difference.empty()) write_png(options.difference, heat_map(comparison.flip_map));
     print_table(pair, comparison);
 }
@@ -204,7 +204,7 @@ void add_compare_command(CLI::App& app) {
             "--exposure", options->exposure_ev,
             "Scale radiance by 2^EV for all metrics; without it the linear metrics take raw radiance and the "
             "display metrics an exposure found from the reference")
-        ->check(CLI::Range(-40.0, 40.0))
+        ->check(make_finite_range(MIN_EXPOSURE_EV, MAX_EXPOSURE_EV))
         ->type_name("EV");
     command->callback([options] { run_compare(*options); });
 }

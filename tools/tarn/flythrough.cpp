@@ -112,7 +112,7 @@ void run_flythrough(FlythroughCommand& command) {
         command.path_file.empty() ? default_path_file() : std::filesystem::path(command.path_file));
     if (command.options.scene.scene.empty()) command.options.scene.scene = path.scene;
     if (command.options.scene.scene.empty()) throw Error("{}: names no scene; give one", command.path_file);
-    if (!command.options.json_file.empty()) check_output_folder(command.options.json_file);
+    check_output_folder(command.options.json_file);
     create_folder(command.out);
     RenderSession session(command.options);
     Renderer& renderer = session.renderer();
@@ -149,8 +149,8 @@ void run_flythrough(FlythroughCommand& command) {
     report["exposure_ev"] = exposure_ev.value_or(0.0f);
     report["interrupted"] = bool(interrupt_flag());
     const std::filesystem::path report_file = std::filesystem::path(command.out) / "report.json";
-    write_text(report_file, report.dump(2) + "\n");
-    if (!command.options.json_file.empty()) write_text(command.options.json_file, report.dump(2) + "\n");
+    write_json(report_file, report);
+    if (!command.options.json_file.empty()) write_json(command.options.json_file, report);
     print_summary(command, totals, measured);
 }
 

@@ -4,14 +4,13 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "commands.h"
-#include "core/error.h"
+#include "output/output_files.h"
 #include "scene/gltf_import.h"
 #include "scene/pose.h"
 #include "scene_options.h"
@@ -164,11 +163,12 @@ Json describe_scene(const InfoOptions& options, const Scene& scene) {
             {"extensions",
              {{"used", scene.extensions_used},
               {"honoured", scene.extensions_honoured},
+              {"approximated", scene.extensions_approximated},
               {"ignored", scene.extensions_ignored}}}};
 }
 
 void print_row(const char* label, const std::string& value) {
-    fmt::print("{:<12}{}\n", label, value);
+    fmt::print("{:<16}{}\n", label, value);
 }
 
 std::string join_names(const Json& list) {
@@ -216,16 +216,12 @@ void print_table(const Json& info) {
     print_row("bounds", shown_bounds(info["bounds_m"]));
     print_row("extensions", count_and_names(info["extensions"]["used"]));
     print_row("  honoured", count_and_names(info["extensions"]["honoured"]));
+    print_row("  approximated", count_and_names(info["extensions"]["approximated"]));
     print_row("  ignored", count_and_names(info["extensions"]["ignored"]));
 }
 
-void write_json(const std::filesystem::path& path, const Json& json) {
-    std::ofstream file(path);
-    file << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
-    if (!file.flush()) throw Error("{}: cannot be written", path.string());
-}
-
 void run_info(const InfoOptions& options) {
+    check_output_folder(options.json);
     const Scene scene = load_gltf(resolve_scene_path(options.scene), {.scene_index = options.scene_index});
     const Json info = describe_scene(options, scene);
     print_table(info);

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -11,8 +10,8 @@
 #include "commands.h"
 #include "core/error.h"
 #include "core/interrupt.h"
-#include "image_io/file.h"
 #include "image_io/image_io.h"
+#include "output/output_files.h"
 #include "scene_options.h"
 
 namespace tarn {
@@ -45,7 +44,7 @@ void write_picture(const std::filesystem::path& path, const ReferenceResult& res
                {"variance.B", take_channel(variance, 2)}});
 }
 
-void write_json(const ReferenceOptions& options, const ReferenceResult& result) {
+void write_report(const ReferenceOptions& options, const ReferenceResult& result) {
     const ReferenceSettings& s = options.settings;
     nlohmann::ordered_json json;
     json["spp"] = result.spp;
@@ -64,24 +63,12 @@ void write_json(const ReferenceOptions& options, const ReferenceResult& result) 
                         {"direct_only", s.direct_only},
                         {"pixel", options.pixel},
                         {"threads", options.scene.threads}};
-    write_whole(options.json, [&](const std::string& temporary) {
-        std::ofstream file(temporary);
-        file << json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
-        if (!file.flush()) throw Error("{}: cannot be written", options.json.string());
-    });
-}
-
-// Found before the work is done, not after it.
-void check_output(const std::filesystem::path& path) {
-    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-    if (!std::filesystem::is_directory(folder)) {
-        throw Error("{}: the folder {} does not exist", path.string(), folder.string());
-    }
+    write_json(options.json, json);
 }
 
 void run_reference_command(ReferenceOptions& options) {
-    check_output(options.out);
-    if (!options.json.empty()) check_output(options.json);
+    check_output_folder(options.out);
+    check_output_folder(options.json);
     const WorkerLimit limit(options.scene.threads);
     const LoadedScene loaded = load_scene(options.scene);
     const auto tracer = create_embree_tracer(loaded.world);
@@ -94,7 +81,7 @@ void run_reference_command(ReferenceOptions& options) {
     settings.cancel = &interrupt_flag();
     const ReferenceResult result = render_reference(loaded.world, *tracer, settings);
     write_picture(options.out, result);
-    if (!options.json.empty()) write_json(options, result);
+    if (!options.json.empty()) write_report(options, result);
     fmt::print(
         "{}: {} samples a pixel{}, relative error {}, {:.1f} Mrays in {:.1f} s, {} samples not finite\n",
         options.out.string(), result.spp, result.cancelled ? " (interrupted)" : "",
@@ -127,7 +114,7 @@ void add_reference_command(CLI::App& app) {
                 options->settings.spp = MAX_SPP;
             },
             "Go on until the relative standard error, as root mean square over the pixels, is below this")
-        ->check(CLI::PositiveNumber)
+        ->check(make_finite_range(1e-9, 1e9))
         ->excludes(spp);
     effort->require_option(1);
     command

@@ -1,4 +1,6 @@
 // tarn render: a picture of a scene through the GL renderer.
+#include <algorithm>
+
 #include "commands.h"
 #include "core/display.h"
 #include "core/error.h"
@@ -14,6 +16,7 @@ struct RenderCommand {
     std::string out;
     int frames = 1;
     bool accumulate = false;
+    double time_step_s = 0.0;  // 0: the scene is held
 };
 
 bool is_exr(const std::string& file) {
@@ -55,9 +58,17 @@ void write_picture(const std::string& file, const Image& radiance, const std::op
     }
 }
 
+// Moves the scene, and its camera with it, to the moment of a frame.
+void move_to_frame(const RenderCommand& command, int frame, RenderSession& session, FrameInput& input) {
+    SceneOptions then = command.options.scene;
+    then.time_s = std::max(0.0, then.time_s) + frame * command.time_step_s;
+    session.move_to(then.time_s);
+    input.camera = choose_camera(then, session.loaded().scene, session.loaded().world);
+}
+
 void run_render(const RenderCommand& command) {
     check_output(command.out);
-    if (!command.options.json_file.empty()) check_output_folder(command.options.json_file);
+    check_output_folder(command.options.json_file);
     RenderSession session(command.options);
     Renderer& renderer = session.renderer();
     FrameInput input;
@@ -71,6 +82,7 @@ void run_render(const RenderCommand& command) {
     Progress progress("rendering", std::uint64_t(command.frames));
     for (int frame = 0; frame < command.frames; ++frame) {
         input.frame = std::uint32_t(frame);
+        if (command.time_step_s > 0.0) move_to_frame(command, frame, session, input);
         const FrameOutput output = renderer.render(input);
         totals.add(output);
         const bool last = frame + 1 == command.frames;
@@ -81,7 +93,7 @@ void run_render(const RenderCommand& command) {
     if (command.accumulate) radiance = accumulator.mean(renderer.width_px(), renderer.height_px());
     write_picture(command.out, radiance, command.options.exposure_ev);
     if (!command.options.json_file.empty()) {
-        write_text(command.options.json_file, make_report(command.options, session, totals).dump(2) + "\n");
+        write_json(command.options.json_file, make_report(command.options, session, totals));
     }
 }
 
@@ -98,6 +110,9 @@ void add_render_command(CLI::App& app) {
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();
     sub->add_flag("--accumulate", command->accumulate, "Keep the mean of all frames instead of the last");
+    sub->add_option("--time-step", command->time_step_s, "Move the animation on by this much a frame, s")
+        ->check(make_finite_range(0.0, 1e6))
+        ->capture_default_str();
     sub->callback([command] { run_render(*command); });
 }
 

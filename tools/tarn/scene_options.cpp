@@ -13,6 +13,7 @@ namespace tarn {
 namespace {
 
 constexpr int MAX_SIZE_PX = 16384;
+constexpr double MAX_TIME_S = 1e6;
 
 template <class Number>
 std::optional<Number> parse_number(const std::string& text) {
@@ -82,6 +83,17 @@ CameraIndex find_camera(const Scene& scene, const std::string& text) {
 
 }  // namespace
 
+CLI::Validator make_finite_range(double minimum, double maximum) {
+    const std::string range = fmt::format("[{} to {}]", minimum, maximum);
+    const auto check = [=](std::string& text) {
+        char* end = nullptr;
+        const double value = std::strtod(text.c_str(), &end);
+        const bool fits = !text.empty() && *end == '\0' && value >= minimum && value <= maximum;
+        return fits ? std::string() : fmt::format("'{}' is not a number in {}", text, range);
+    };
+    return CLI::Validator(check, range);
+}
+
 void add_scene_options(CLI::App& command, SceneOptions& options) {
     command
         .add_option("SCENE", options.scene,
@@ -102,13 +114,14 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
     command
         .add_option("--sky", options.sky,
                     "Even sky of this radiance (default: 1 where the scene has no light, else 0)")
-        ->check(CLI::Range(0.0f, 1e6f))
+        ->check(make_finite_range(0.0, 1e6))
         ->excludes(command.get_option("--environment"));
     command.add_option("--seed", options.seed, "Seed of all random numbers")->capture_default_str();
     command.add_option("--threads", options.threads, "Worker threads (0: one per core)")
         ->check(CLI::Range(0, 1024))
         ->capture_default_str();
-    command.add_option("--time", options.time_s, "Moment of the animation, s (default: the rest pose)");
+    command.add_option("--time", options.time_s, "Moment of the animation, s (default: the rest pose)")
+        ->check(make_finite_range(-MAX_TIME_S, MAX_TIME_S));
     command.add_option("--scene", options.scene_index, "Index of the scene (default: the file's own choice)")
         ->check(CLI::NonNegativeNumber);
 }
@@ -121,22 +134,12 @@ std::filesystem::path resolve_scene_path(const std::filesystem::path& scene) {
     return std::filesystem::exists(own) ? own : scene;
 }
 
-namespace {
-
-Image even_sky(float radiance) {
-    Image image(2, 2, 3);
-    image.values.assign(image.values.size(), radiance);
-    return image;
-}
-
-}  // namespace
-
 LoadedScene load_scene(const SceneOptions& options) {
     LoadedScene loaded;
     loaded.scene = load_gltf(resolve_scene_path(options.scene), GltfOptions{options.scene_index});
     WorldOptions world_options;
     world_options.time_s = options.time_s;
-    if (options.sky) world_options.environment = even_sky(*options.sky);
+    if (options.sky) world_options.environment = make_even_sky(*options.sky);
     if (options.environment) world_options.environment = read_radiance(*options.environment);
     loaded.world = build_world(loaded.scene, world_options);
     return loaded;

@@ -25,6 +25,12 @@ struct SceneOptions {
     int scene_index = -1;  // -1: the file's own choice
 };
 
+inline constexpr double MIN_EXPOSURE_EV = -40.0;
+inline constexpr double MAX_EXPOSURE_EV = 40.0;
+
+// A check of an option: a number from `minimum` to `maximum`. CLI11's own Range takes "nan" for one.
+CLI::Validator make_finite_range(double minimum, double maximum);
+
 // Adds SCENE and the options above to a command. `options` must outlive the parsing.
 void add_scene_options(CLI::App& command, SceneOptions& options);
 

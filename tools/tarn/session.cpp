@@ -1,9 +1,5 @@
 #include "session.h"
 
-#include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <thread>
 
@@ -93,11 +89,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
         ->capture_default_str();
     command
         .add_option("--exposure", options.exposure_ev, "Exposure of PNG pictures, EV (default: automatic)")
-        ->check([](const std::string& text) {
-            // The conversion itself takes "nan" and "inf" for numbers.
-            const bool is_odd = !text.empty() && !std::isfinite(std::strtod(text.c_str(), nullptr));
-            return is_odd ? fmt::format("'{}' is not a finite number", text) : std::string();
-        });
+        ->check(make_finite_range(MIN_EXPOSURE_EV, MAX_EXPOSURE_EV));
     command.add_option("--json", options.json_file, "Write timings, counters and settings to this file");
 }
 
@@ -150,36 +142,6 @@ nlohmann::json make_report(const RenderOptions& options, RenderSession& session,
             {"machine", session.describe_machine()},
             {"settings", describe_settings(options, session.renderer())},
             {"plan", plan}};
-}
-
-void create_folder(const std::filesystem::path& folder) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) throw Error("{}: the folder cannot be made: {}", folder.string(), error.message());
-}
-
-void check_output_folder(const std::filesystem::path& file) {
-    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-    if (!std::filesystem::is_directory(folder)) {
-        throw Error("{}: the folder {} does not exist", file.string(), folder.string());
-    }
-}
-
-void write_text(const std::filesystem::path& file, const std::string& text) {
-    const std::filesystem::path partial = file.string() + ".partial";
-    {
-        std::ofstream stream(partial, std::ios::binary);
-        stream << text;
-        stream.flush();
-        if (!stream) {
-            std::error_code ignored;
-            std::filesystem::remove(partial, ignored);
-            throw Error("{}: cannot be written", file.string());
-        }
-    }
-    std::error_code error;
-    std::filesystem::rename(partial, file, error);
-    if (error) throw Error("{}: cannot be written: {}", file.string(), error.message());
 }
 
 }  // namespace tarn

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "output/output_files.h"
 #include "platform/context.h"
 #include "renderer/renderer.h"
 #include "scene_options.h"
@@ -59,14 +60,5 @@ struct RunTotals {
 
 // The JSON report of render and flythrough: frame_ms, passes, rays, counters, machine, settings, plan.
 nlohmann::json make_report(const RenderOptions& options, RenderSession& session, const RunTotals& totals);
-
-// Makes a folder and its parents. Throws Error that names it.
-void create_folder(const std::filesystem::path& folder);
-
-// Throws Error where the folder of `file` does not exist: to be found before the work is done, not after it.
-void check_output_folder(const std::filesystem::path& file);
-
-// Writes text whole or not at all. Throws Error that names the file.
-void write_text(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace tarn
