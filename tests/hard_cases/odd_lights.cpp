@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "platform/context.h"
+#include "scene/gltf_import.h"
 #include "support/toy_render.h"
+#include "unit/gltf_builder.h"
 
 namespace tarn::test {
 namespace {
@@ -194,6 +196,92 @@ TEST_F(OddLights, AnEmitterWithoutAreaAloneIsFinite) {
     toy.add_instance(toy.add_mesh(lamp, {{0.0f, 1.0f, 0.0f}, {1.0f, 1.0f, 0.0f}, {0.5f, 1.0f, 0.0f}}));
     ToyRender render = make_render(toy);
     for (const DirectMode mode : MODES) render.render(look_at_floor(render), mode, 4);
+}
+
+// ---- A million ----------------------------------------------------------------------------------
+
+template <class T>
+void append_bytes(std::string& bytes, const std::vector<T>& values) {
+    bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+}
+
+// A binary glTF file of one emissive sheet, [-1, 1] x {1.5} x [-1, 1] facing down, of 2 * columns * rows
+// triangles.
+std::string sheet_glb(std::uint32_t columns, std::uint32_t rows) {
+    std::vector<float> positions;
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t z = 0; z <= rows; ++z) {
+        for (std::uint32_t x = 0; x <= columns; ++x) {
+            positions.insert(positions.end(), {2.0f * float(x) / float(columns) - 1.0f, 1.5f,
+                                               2.0f * float(z) / float(rows) - 1.0f});
+        }
+    }
+    for (std::uint32_t z = 0; z < rows; ++z) {
+        for (std::uint32_t x = 0; x < columns; ++x) {
+            const std::uint32_t a = z * (columns + 1) + x, b = a + columns + 1;
+            indices.insert(indices.end(), {a, a + 1, b, b, a + 1, b + 1});
+        }
+    }
+    std::string binary;
+    append_bytes(binary, positions);
+    append_bytes(binary, indices);
+    std::string json = fmt::format(
+        R"({{"asset": {{"version": "2.0"}}, "buffers": [{{"byteLength": {0}}}], "nodes": [{{"mesh": 0}}],
+        "bufferViews": [{{"buffer": 0, "byteLength": {1}}}, {{"buffer": 0, "byteOffset": {1}, "byteLength": {2}}}],
+        "accessors": [{{"bufferView": 0, "componentType": 5126, "count": {3}, "type": "VEC3"}},
+                      {{"bufferView": 1, "componentType": 5125, "count": {4}, "type": "SCALAR"}}],
+        "materials": [{{"emissiveFactor": [1, 1, 1]}}],
+        "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0}}, "indices": 1, "material": 0}}]}}]}})",
+        binary.size(), positions.size() * sizeof(float), indices.size() * sizeof(std::uint32_t),
+        positions.size() / 3, indices.size());
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    std::string glb = "glTF";
+    append_bytes<std::uint32_t>(glb, {2, std::uint32_t(28 + json.size() + binary.size())});
+    append_bytes<std::uint32_t>(glb, {std::uint32_t(json.size()), 0x4e4f534a});
+    glb += json;
+    append_bytes<std::uint32_t>(glb, {std::uint32_t(binary.size()), 0x004e4942});
+    return glb + binary;
+}
+
+// The sheet over a floor, from a file through import, light tables and frames.
+ToyRender make_sheet_render(std::uint32_t columns, std::uint32_t rows) {
+    const TemporaryFile file(".glb", sheet_glb(columns, rows));
+    Scene sheet = load_gltf(file.path());
+    ToyScene toy = make_floor();
+    toy.scene.materials.push_back(sheet.materials.at(0));
+    sheet.meshes.at(0).material = MaterialIndex(toy.scene.materials.size() - 1);
+    toy.scene.meshes.push_back(std::move(sheet.meshes.at(0)));
+    toy.add_instance(MeshIndex(toy.scene.meshes.size() - 1));
+    return make_render(toy);
+}
+
+double mean_of_floor(ToyRender& render, DirectMode mode, int frames) {
+    const Image image = render.render(look_at_floor(render), mode, frames);
+    double sum = 0.0;
+    int count = 0;
+    for (int y = 0; y < HEIGHT_PX; ++y) {
+        for (int x = 0; x < WIDTH_PX; ++x) {
+            if (render.seen_instance(x, y) != 0) continue;
+            sum += image.pixel(x, y)[1];
+            ++count;
+        }
+    }
+    EXPECT_GT(count, 3000);
+    return sum / count;
+}
+
+TEST_F(OddLights, AMillionTrianglesShineAsTwoOfTheSameShape) {
+    ToyRender two = make_sheet_render(1, 1);
+    ToyRender million = make_sheet_render(1000, 500);
+    ASSERT_EQ(two.world().lights.count, 2u);
+    ASSERT_EQ(million.world().lights.count, 1000000u);
+    for (const DirectMode mode : MODES) {
+        const double expected = mean_of_floor(two, mode, 8);
+        EXPECT_GT(expected, 0.01);
+        // The floor is at least 1.5 m below, so that one draw deviates by at most its own mean: six standard
+        // errors of the difference of 8 x 3000 draws each.
+        EXPECT_NEAR(mean_of_floor(million, mode, 8), expected, 6.0 * expected * std::sqrt(2.0 / 24000.0));
+    }
 }
 
 // ---- Where a light may be -----------------------------------------------------------------------
