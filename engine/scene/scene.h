@@ -225,6 +225,9 @@ struct Scene {
     std::vector<PunctualLight> lights;
     std::vector<NodeIndex> light_nodes;  // nodes of the scene that carry a light, in node order
     std::vector<Animation> animations;
+    // To be increased by whoever edits a table, so that update_world looks for the edit. Nodes and instances
+    // keep their indices: lights are known by them.
+    std::uint64_t revision = 0;
 
     std::vector<std::string> extensions_used;          // as the file lists them
     std::vector<std::string> extensions_honoured;      // those of them that Tarn reads

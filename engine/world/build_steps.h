@@ -9,11 +9,16 @@ namespace tarn {
 void add_meshes(World& world, const Scene& scene);
 void place_instances(World& world, const Scene& scene, const Pose& pose);
 
-// materials.cpp
+// materials.cpp: texels and materials, then the factors of materials that were edited.
 void add_materials(World& world, const Scene& scene);
+void update_materials(World& world, const Scene& scene);
 
-// lights.cpp: punctual lights and emissive triangles, with their table by power.
+// lights.cpp: punctual lights and emissive triangles, with their table by power, all anew.
 void rebuild_lights(World& world, const Scene& scene, const Pose& pose);
+
+// lights_update.cpp: only what differs from the table. `edited`: lights and materials may have changed, not
+// only where things are.
+void update_lights(World& world, const Scene& scene, const Pose& pose, bool edited);
 
 // environment.cpp
 WorldEnvironment make_environment(const Image& radiance);

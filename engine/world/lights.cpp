@@ -1,189 +1,150 @@
-// The table of lights: punctual ones first, then every emissive triangle, and the alias table by power.
-#include <algorithm>
-#include <cmath>
-#include <utility>
+// The table of lights from scratch: punctual ones first, then every emissive triangle, their emission maps
+// behind them, and the alias table by power.
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
-#include "shared/math/light.h"
+#include <cmath>
+
 #include "world/alias_builder.h"
 #include "world/build_steps.h"
-#include "world/scene_access.h"
+#include "world/light_sources.h"
+#include "world/light_table.h"
 
 namespace tarn {
 namespace {
 
-// Lights are gathered with their weights, then packed.
-struct LightList {
-    std::vector<glm::uvec4> rows;
-    std::vector<double> powers;
-    std::vector<std::uint64_t> identities;
-    std::vector<std::pair<std::uint32_t, EmissionMap>> maps;  // of the lights that have one
+constexpr std::size_t GRAIN = 1024;  // triangles worth a task of their own
 
-    std::uint32_t add(const Light& light, double power, std::uint64_t identity) {
-        const std::size_t first = rows.size();
-        rows.resize(first + LIGHT_ROWS);
-        pack_light(light, rows[first], rows[first + 1], rows[first + 2], rows[first + 3]);
-        powers.push_back(power);
-        identities.push_back(identity);
-        return std::uint32_t(powers.size() - 1);
-    }
-
-    // Appends the emission maps behind all lights and tells each light where its own begins.
-    void append_maps() {
-        for (const auto& [light, map] : maps) {
-            const std::size_t first = rows.size();
-            rows.resize(first + EMISSION_MAP_ROWS);
-            pack_emission_map(map, rows[first], rows[first + 1], rows[first + 2]);
-            rows[light * LIGHT_ROWS + 3].w = std::uint32_t(first) + EMISSION_MAP_TAG;
-        }
-    }
-};
-
-Light make_punctual(const PunctualLight& source, const glm::dmat4& world_from_node,
-                    const glm::dvec3& origin_ws) {
-    Light light{};
-    light.flags = std::uint32_t(source.kind);
-    light.position = glm::vec3(glm::dvec3(world_from_node[3]) - origin_ws);
-    light.radiance = source.intensity;
-    light.range = float(source.range_m);
-    light.instance = INVALID_INDEX;
-    light.primitive = INVALID_INDEX;
-    const glm::dvec3 backward = glm::dvec3(world_from_node[2]);
-    const double length = glm::length(backward);
-    light.edge1 = length > 0.0 ? glm::vec3(-backward / length) : glm::vec3(0.0f, 0.0f, -1.0f);
-    if (source.kind == LightKind::SPOT) {
-        const double inner = std::cos(source.inner_cone_rad), outer = std::cos(source.outer_cone_rad);
-        const double scale = 1.0 / std::max(0.001, inner - outer);
-        light.edge2 = glm::vec3(float(scale), float(-outer * scale), 0.0f);
-    }
-    return light;
+// Calls work(emitter, its first slot in light_of_primitive, primitive) for each emissive triangle, on all
+// threads.
+template <class Work>
+void for_each_triangle(const WorldLights& lights, const std::vector<Emitter>& emitters, const Work& work) {
+    tbb::parallel_for(std::size_t(0), emitters.size(), [&](std::size_t e) {
+        const Emitter& emitter = emitters[e];
+        const std::uint32_t first = lights.instance_first[emitter.instance];
+        tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, emitter.triangle_count, GRAIN),
+                          [&](const auto& range) {
+                              for (auto p = range.begin(); p != range.end(); ++p) work(emitter, first, p);
+                          });
+    });
 }
 
-// Watts. A directional light's power is what falls on the disc around the scene.
-double punctual_power(const PunctualLight& light, double scene_radius) {
-    const double intensity = luminance(light.intensity);
-    switch (light.kind) {
-        case LightKind::POINT:
-            return 4.0 * double(PI) * intensity;
-        case LightKind::SPOT:
-            return double(PI) * intensity *
-                   (2.0 - std::cos(light.inner_cone_rad) - std::cos(light.outer_cone_rad));
-        case LightKind::DIRECTIONAL:
-            return double(PI) * scene_radius * scene_radius * intensity;
-    }
-    return 0.0;
-}
-
-void add_punctual_lights(LightList& list, const World& world, const Scene& scene, const Pose& pose) {
-    const double radius = world.bounds.empty() ? 1.0 : 0.5 * glm::length(world.bounds.extent());
-    for (const NodeIndex node : scene.light_nodes) {
-        const PunctualLight& source = at(scene.lights, at(scene.nodes, node).light);
-        if (max_component(source.intensity) <= 0.0f) continue;
-        list.add(make_punctual(source, at(pose.world_from_node, node), world.origin_ws),
-                 punctual_power(source, radius), node.value);
-    }
-}
-
-EmissionMap make_emission_map(SceneAccess& access, const InstanceRecord& instance, std::uint32_t primitive) {
-    const SlotRecord slot = access.load_slot(instance.material, SLOT_EMISSION);
-    const glm::uvec3 vertices = access.load_vertex_indices(instance, primitive);
-    const auto uv_at = [&](std::uint32_t vertex) {
-        const glm::vec2 second = access.unpack_uv1(access.fetch_vertex_row(vertex * VERTEX_ROWS + 3));
-        return access.slot_uv(slot, access.load_uv0(vertex), second);
-    };
-    return {uv_at(vertices.x), uv_at(vertices.y), uv_at(vertices.z), slot.first_texel, slot.size, slot.flags};
-}
-
-// Mean luminance of a textured triangle, by a fixed grid of points. Never 0 by accident: a texture that is
-// dark at all grid points keeps a small share, so that its bright spots stay reachable.
-double mean_luminance(SceneAccess& access, const Light& light, const EmissionMap& map) {
-    constexpr int STEPS = 4;
-    double sum = 0.0;
-    int count = 0;
-    for (int i = 0; i < STEPS; ++i) {
-        for (int j = 0; i + j < STEPS; ++j) {
-            const glm::vec2 barycentrics((float(i) + 1.0f / 3.0f) / STEPS, (float(j) + 1.0f / 3.0f) / STEPS);
-            sum += luminance(light.radiance * access.sample_emission_map(map, barycentrics));
-            ++count;
-        }
-    }
-    return std::max(sum / count, 0.01 * luminance(light.radiance));
-}
-
-Light make_triangle(const World& world, SceneAccess& access, std::uint32_t instance, std::uint32_t primitive,
-                    const MaterialRecord& material, bool textured) {
-    const InstanceRecord record = access.load_instance(instance);
-    const glm::uvec3 vertices = access.load_vertex_indices(record, primitive);
-    const glm::vec3 p0 = access.transform_point(record, access.load_position_os(vertices.x));
-    const glm::vec3 p1 = access.transform_point(record, access.load_position_os(vertices.y));
-    const glm::vec3 p2 = access.transform_point(record, access.load_position_os(vertices.z));
-    Light light{};
-    light.flags = LIGHT_TRIANGLE;
-    if ((material.flags & MATERIAL_DOUBLE_SIDED) != 0u) light.flags |= LIGHT_DOUBLE_SIDED;
-    // The lit side of a mirrored triangle is the other one. Its vertices keep their order, for the
-    // barycentrics' sake.
-    if (world.instances[instance].mirrored) light.flags |= LIGHT_MIRRORED;
-    if (textured) light.flags |= LIGHT_TEXTURED;
-    if ((material.flags & (MATERIAL_ALPHA_MASK | MATERIAL_ALPHA_BLEND)) != 0u) light.flags |= LIGHT_COVERED;
-    light.position = p0;
-    light.edge1 = p1 - p0;
-    light.edge2 = p2 - p0;
-    light.instance = instance;
-    light.primitive = primitive;
-    light.radiance = material.emission;
-    return light;
-}
-
-void add_triangle_lights(LightList& list, World& world) {
-    SceneAccess access(world);
+std::vector<Emitter> place_emitters(World& world) {
     WorldLights& lights = world.lights;
+    lights.instance_first.assign(world.instances.size(), INVALID_INDEX);
+    std::vector<Emitter> emitters;
+    std::uint32_t slots = 0;
     for (std::uint32_t i = 0; i < world.instances.size(); ++i) {
-        const std::uint32_t material_index = world.material_of(i);
-        const MaterialRecord material = access.load_material(material_index);
-        if (max_component(material.emission) <= 0.0f || (material.flags & MATERIAL_UNLIT) != 0u) continue;
-        const bool textured = (access.load_slot(material_index, SLOT_EMISSION).flags & SLOT_PRESENT) != 0u;
-        const double sides = (material.flags & MATERIAL_DOUBLE_SIDED) != 0u ? 2.0 : 1.0;
-        lights.instance_first[i] = std::uint32_t(lights.light_of_primitive.size());
-        const std::uint32_t count = world.meshes[world.instances[i].mesh].triangle_count;
-        for (std::uint32_t primitive = 0; primitive < count; ++primitive) {
-            const Light light = make_triangle(world, access, i, primitive, material, textured);
-            const double area = triangle_area(light);
-            std::uint32_t index = INVALID_INDEX;
-            if (area > 0.0 && std::isfinite(area)) {
-                double mean = luminance(light.radiance);
-                if (textured) {
-                    const EmissionMap map = make_emission_map(access, access.load_instance(i), primitive);
-                    mean = mean_luminance(access, light, map);
-                    list.maps.emplace_back(std::uint32_t(list.powers.size()), map);
-                }
-                const std::uint64_t source = world.instances[i].scene_instance + 1;
-                index = list.add(light, sides * double(PI) * area * mean, source << 32 | primitive);
-            }
-            lights.light_of_primitive.push_back(index);
+        const std::optional<Emitter> emitter = find_emitter(world, i);
+        if (!emitter) continue;
+        lights.instance_first[i] = slots;
+        slots += emitter->triangle_count;
+        emitters.push_back(*emitter);
+    }
+    lights.light_of_primitive.assign(slots, INVALID_INDEX);
+    return emitters;
+}
+
+// Gives each triangle with an area its index. `powers` holds one a slot, negative where there is no area.
+void number_triangles(World& world, const std::vector<Emitter>& emitters, const std::vector<double>& powers) {
+    WorldLights& lights = world.lights;
+    for (const Emitter& emitter : emitters) {
+        const std::uint32_t first = lights.instance_first[emitter.instance], start = lights.count;
+        const std::uint32_t scene_instance = world.instances[emitter.instance].scene_instance;
+        for (std::uint32_t primitive = 0; primitive < emitter.triangle_count; ++primitive) {
+            if (powers[first + primitive] < 0.0) continue;
+            lights.light_of_primitive[first + primitive] = lights.count++;
+            lights.powers.push_back(powers[first + primitive]);
+            lights.identities.push_back(identify_triangle(scene_instance, primitive));
+        }
+        lights.emissive_instances.push_back(record_emissive_instance(world, emitter, {start, lights.count}));
+    }
+}
+
+void add_triangle_lights(World& world) {
+    WorldLights& lights = world.lights;
+    const std::vector<Emitter> emitters = place_emitters(world);
+    std::vector<double> powers(lights.light_of_primitive.size());
+    SceneAccess access(world);
+    for_each_triangle(lights, emitters, [&](const Emitter& emitter, std::uint32_t first, std::uint32_t p) {
+        const Light light = make_triangle_light(access, emitter, p);
+        powers[first + p] = has_area(light) ? compute_triangle_power(access, emitter, light) : -1.0;
+    });
+    number_triangles(world, emitters, powers);
+    lights.rows.resize(std::size_t(lights.count) * LIGHT_ROWS);
+    for_each_triangle(lights, emitters, [&](const Emitter& emitter, std::uint32_t first, std::uint32_t p) {
+        const std::uint32_t index = lights.light_of_primitive[first + p];
+        if (index != INVALID_INDEX) write_light(lights, index, make_triangle_light(access, emitter, p));
+    });
+}
+
+void add_punctual_lights(WorldLights& lights, const std::vector<PunctualSource>& sources) {
+    lights.rows.resize(sources.size() * LIGHT_ROWS);
+    for (const PunctualSource& source : sources) {
+        write_light(lights, lights.count++, source.light);
+        lights.powers.push_back(source.power);
+        lights.identities.push_back(source.identity);
+    }
+    lights.punctual_count = lights.count;
+}
+
+// Appends the emission maps behind all lights and tells each light where its own begins.
+void append_emission_maps(World& world) {
+    WorldLights& lights = world.lights;
+    SceneAccess access(world);
+    for (const EmissiveInstance& source : lights.emissive_instances) {
+        if ((source.flags & LIGHT_TEXTURED) == 0u) continue;
+        const std::optional<Emitter> emitter = find_emitter(world, source.instance);
+        for (std::uint32_t light = source.lights.first; light < source.lights.last; ++light) {
+            const std::uint32_t primitive = lights.rows[light * LIGHT_ROWS + 2].w;
+            const EmissionMap map = make_emission_map(access, *emitter, primitive);
+            const std::size_t first = lights.rows.size();
+            lights.rows.resize(first + EMISSION_MAP_ROWS);
+            pack_emission_map(map, lights.rows[first], lights.rows[first + 1], lights.rows[first + 2]);
+            lights.rows[light * LIGHT_ROWS + 3].w = std::uint32_t(first) + EMISSION_MAP_TAG;
         }
     }
 }
 
 }  // namespace
 
-void rebuild_lights(World& world, const Scene& scene, const Pose& pose) {
-    WorldLights& lights = world.lights;
-    const std::uint64_t revision = lights.revision + 1;
-    lights = WorldLights{};
-    lights.revision = revision;
-    lights.structure_revision = revision;
-    lights.instance_first.assign(world.instances.size(), INVALID_INDEX);
-    LightList list;
-    add_punctual_lights(list, world, scene, pose);
-    lights.punctual_count = std::uint32_t(list.powers.size());
-    add_triangle_lights(list, world);
-    lights.count = std::uint32_t(list.powers.size());
-    list.append_maps();
-    AliasTable table = build_alias_table(list.powers);
-    lights.rows = std::move(list.rows);
+EmissiveInstance record_emissive_instance(const World& world, const Emitter& emitter,
+                                          const IndexRange& lights) {
+    const WorldInstance& instance = world.instances[emitter.instance];
+    EmissiveInstance record;
+    record.instance = emitter.instance;
+    record.lights = lights;
+    record.flags = emitter.flags;
+    record.radiance = emitter.radiance;
+    record.instance_revision = instance.revision;
+    record.mesh_revision = world.meshes[instance.mesh].revision;
+    record.scale = measure_scale(instance.world_from_object);
+    return record;
+}
+
+glm::mat3 measure_scale(const glm::mat4& world_from_object) {
+    const glm::dmat3 axes(world_from_object);
+    return glm::mat3(glm::transpose(axes) * axes);
+}
+
+void rebuild_alias_table(WorldLights& lights) {
+    AliasTable table = build_alias_table(lights.powers);
     lights.alias_rows = std::move(table.rows);
     lights.pmf = std::move(table.pmf);
-    lights.identities = std::move(list.identities);
-    lights.last_changed = lights.count;
+}
+
+void rebuild_lights(World& world, const Scene& scene, const Pose& pose) {
+    const std::uint64_t order = world.lights.order_revision, structure = world.lights.structure_revision,
+                        revision = world.lights.revision;
+    WorldLights& lights = world.lights = WorldLights{};
+    add_punctual_lights(lights, list_punctual_lights(world, scene, pose));
+    add_triangle_lights(world);
+    append_emission_maps(world);
+    rebuild_alias_table(lights);
+    lights.order_revision = order + 1;
+    lights.structure_revision = structure + 1;
+    lights.revision = revision + 1;
+    set_changed(lights, {{0u, lights.count}});
 }
 
 }  // namespace tarn

@@ -10,17 +10,14 @@ namespace {
 // What a texture buffer is sure to hold on the drivers in use (llvmpipe, NVIDIA, AMD, Intel: 2^27 and more).
 constexpr std::size_t TEXEL_LIMIT = std::size_t(1) << 27;
 
-std::vector<std::uint32_t> add_texels(World& world, const Scene& scene) {
-    std::vector<std::uint32_t> first_texel;
+void add_texels(World& world, const Scene& scene) {
     for (const TextureImage& image : scene.images) {
         if (world.texels.size() + image.texels.size() > TEXEL_LIMIT) {
             throw Error("{}: image '{}' would make {} texels, the texture pool holds {}", scene.name,
                         image.name, world.texels.size() + image.texels.size(), TEXEL_LIMIT);
         }
-        first_texel.push_back(std::uint32_t(world.texels.size()));
         world.texels.insert(world.texels.end(), image.texels.begin(), image.texels.end());
     }
-    return first_texel;
 }
 
 SlotRecord make_slot(const Scene& scene, const TextureSlot& slot,
@@ -70,10 +67,20 @@ MaterialRecord make_record(const Material& material) {
     return record;
 }
 
-}  // namespace
+// Where each image's texels begin in the pool.
+std::vector<std::uint32_t> find_texels(const Scene& scene) {
+    std::vector<std::uint32_t> first_texel;
+    std::size_t next = 0;
+    for (const TextureImage& image : scene.images) {
+        first_texel.push_back(std::uint32_t(next));
+        next += image.texels.size();
+    }
+    return first_texel;
+}
 
-void add_materials(World& world, const Scene& scene) {
-    const std::vector<std::uint32_t> first_texel = add_texels(world, scene);
+std::vector<glm::uvec4> make_material_rows(const Scene& scene) {
+    const std::vector<std::uint32_t> first_texel = find_texels(scene);
+    std::vector<glm::uvec4> all;
     for (const Material& material : scene.materials) {
         glm::uvec4 rows[MATERIAL_ROWS];
         pack_material(make_record(material), rows[0], rows[1], rows[2], rows[3]);
@@ -82,9 +89,29 @@ void add_materials(World& world, const Scene& scene) {
         for (int s = 0; s < 4; ++s) {
             pack_slot(make_slot(scene, *slots[s], first_texel), rows[4 + 2 * s], rows[5 + 2 * s]);
         }
-        world.material_rows.insert(world.material_rows.end(), rows, rows + MATERIAL_ROWS);
-        world.material_flags.push_back(material_flags(material));
+        all.insert(all.end(), rows, rows + MATERIAL_ROWS);
     }
+    return all;
+}
+
+}  // namespace
+
+void add_materials(World& world, const Scene& scene) {
+    add_texels(world, scene);
+    world.material_rows = make_material_rows(scene);
+    for (const Material& material : scene.materials) world.material_flags.push_back(material_flags(material));
+    world.material_revision = 1;
+}
+
+void update_materials(World& world, const Scene& scene) {
+    std::vector<glm::uvec4> rows = make_material_rows(scene);
+    TARN_ASSERT(rows.size() == world.material_rows.size(), "{}: materials were added or removed", scene.name);
+    if (rows == world.material_rows) return;
+    world.material_rows = std::move(rows);
+    for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+        world.material_flags[m] = material_flags(scene.materials[m]);
+    }
+    ++world.material_revision;
 }
 
 }  // namespace tarn

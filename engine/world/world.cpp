@@ -1,6 +1,7 @@
 #include "world/world.h"
 
 #include "world/build_steps.h"
+#include "world/light_table.h"
 
 namespace tarn {
 namespace {
@@ -32,6 +33,7 @@ World build_world(const Scene& scene, const WorldOptions& options) {
     add_meshes(world, scene);
     place_instances(world, scene, pose);
     rebuild_lights(world, scene, pose);
+    world.scene_revision = scene.revision;
     if (options.environment) {
         world.environment = make_environment(*options.environment);
     } else if (world.lights.count == 0) {
@@ -41,10 +43,16 @@ World build_world(const Scene& scene, const WorldOptions& options) {
 }
 
 void update_world(World& world, const Scene& scene, double time_s) {
-    if (scene.animations.empty()) return;
+    const bool edited = scene.revision != world.scene_revision;
+    if (scene.animations.empty() && !edited) {
+        set_changed(world.lights, {});
+        return;
+    }
     const Pose pose = evaluate_pose(scene, time_s);
+    if (edited) update_materials(world, scene);
     place_instances(world, scene, pose);
-    rebuild_lights(world, scene, pose);
+    update_lights(world, scene, pose, edited);
+    world.scene_revision = scene.revision;
 }
 
 }  // namespace tarn

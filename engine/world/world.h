@@ -15,6 +15,7 @@
 #include "scene/pose.h"
 #include "scene/scene.h"
 #include "shared/interface/records.h"
+#include "world/lights.h"
 
 namespace tarn {
 
@@ -54,28 +55,10 @@ struct WorldEnvironment {
     std::vector<glm::uvec4> alias_rows;
 };
 
-struct WorldLights {
-    std::vector<glm::uvec4> rows;        // LIGHT_ROWS a light, then EMISSION_MAP_ROWS a textured one
-    std::vector<glm::uvec4> alias_rows;  // by power
-    std::vector<float> pmf;              // probability of each light under the alias table
-    std::uint32_t count = 0;
-    std::uint32_t punctual_count = 0;  // these come first
-    // Triangle lights by where they are: instance_first[i] is the index into `light_of_primitive` of instance
-    // i's first primitive, or INVALID_INDEX where the instance does not emit.
-    std::vector<std::uint32_t> instance_first;
-    std::vector<std::uint32_t> light_of_primitive;
-    std::vector<std::uint64_t> identities;  // one a light; the same light keeps it whatever comes and goes
-    // Lights whose rows the last update wrote: [first_changed, last_changed).
-    std::uint32_t first_changed = 0;
-    std::uint32_t last_changed = 0;
-    std::uint64_t structure_revision = 0;  // grows when count, order, alias rows or emission maps change
-    std::uint64_t revision = 0;            // grows with any change
-};
-
 struct World {
     glm::dvec3 origin_ws{0.0};
     bool is_animated = false;
-    Bounds bounds;  // relative to the origin
+    Bounds bounds;  // relative to the origin; of the first moment
     std::vector<WorldMesh> meshes;
     std::vector<WorldInstance> instances;
     std::vector<glm::uvec4> vertex_rows;
@@ -86,6 +69,8 @@ struct World {
     std::vector<glm::u16vec4> texels;
     WorldLights lights;
     WorldEnvironment environment;
+    std::uint64_t scene_revision = 0;     // Scene::revision that this world follows
+    std::uint64_t material_revision = 0;  // grows when material rows change
 
     std::uint32_t material_of(std::uint32_t instance) const {
         return instance_rows[instance * INSTANCE_ROWS + 3].z;
@@ -104,9 +89,13 @@ Image make_even_sky(float radiance);
 // Flattens a scene. Scenes without any light and without an environment get an even sky of radiance 1.
 World build_world(const Scene& scene, const WorldOptions& options = {});
 
-// Moves what `time_s` moves: instance rows, deformed vertices, lights. Revisions grow where something may
-// have changed; a scene without animations stays as it is. `bounds` and `origin_ws` stay those of the first
-// moment.
+// Moves what `time_s` moves: instance rows, deformed vertices, lights. Where Scene::revision has grown it
+// also follows edits: of nodes' transforms, of lights and light_nodes, and of materials' factors. (Meshes,
+// instances, texture slots and alpha modes are those of build_world, and so is the sky.) Only what changed is
+// written, revisions grow where something may have changed, and WorldLights::changed says which lights.
+// Without animations and edits nothing is looked at. `bounds` and `origin_ws` stay those of the first moment:
+// they set the near plane, an orthographic camera's depth range and how often a directional light is drawn,
+// none of which is wrong for what moves out of them by less than the scene's size.
 void update_world(World& world, const Scene& scene, double time_s);
 
 // The camera at `index` of the scene, in this pose; nullopt when there is no such camera. Throws Error where

@@ -1,0 +1,75 @@
+// The table of lights: which there are, who they are from one moment to the next, and what has changed.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace tarn {
+
+// A half-open range of indices; empty where both are the same.
+struct IndexRange {
+    std::uint32_t first = 0;
+    std::uint32_t last = 0;
+
+    friend bool operator==(const IndexRange&, const IndexRange&) = default;
+};
+
+// The triangle lights of one instance, and the state of the instance from which they were written.
+struct EmissiveInstance {
+    std::uint32_t instance = 0;  // in World::instances
+    IndexRange lights;           // in the order of its primitives; those without area are left out
+    std::uint32_t flags = 0;     // LIGHT_*, of each of them
+    glm::vec3 radiance{0.0f};
+    std::uint64_t instance_revision = 0;
+    std::uint64_t mesh_revision = 0;
+    glm::mat3 scale{1.0f};  // products of its transform's axes when the powers were computed
+};
+
+// Lights keep their order: punctual ones as in Scene::light_nodes, then the emissive triangles by instance
+// and primitive.
+//
+// Three revisions, each of which grows only with what it is about, and always with the next one:
+// `order_revision` (lights came, went or changed places, so that indices mean something else),
+// `structure_revision` (that, or the alias table or an emission map changed) and `revision` (anything
+// changed). Where `structure_revision` has not grown, all that changed is in `changed`.
+struct WorldLights {
+    std::vector<glm::uvec4> rows;        // LIGHT_ROWS a light, then EMISSION_MAP_ROWS a textured one
+    std::vector<glm::uvec4> alias_rows;  // by power
+    std::vector<float> pmf;              // probability of each light under the alias table
+    // Watts of luminance, from which the alias table is made; may lag behind what a deforming mesh emits by
+    // POWER_TOLERANCE. A directional light's is what falls on the disc around World::bounds.
+    std::vector<double> powers;
+    // Who a light is, whatever its index: a punctual light is its node, a triangle its scene instance and
+    // primitive. No two lights share one.
+    std::vector<std::uint64_t> identities;
+    std::uint32_t count = 0;
+    std::uint32_t punctual_count = 0;  // these come first
+    // Triangle lights by where they are: instance_first[i] is the index into `light_of_primitive` of instance
+    // i's first primitive, or INVALID_INDEX where the instance does not emit.
+    std::vector<std::uint32_t> instance_first;
+    std::vector<std::uint32_t> light_of_primitive;
+    std::vector<EmissiveInstance> emissive_instances;  // in the order of their lights
+
+    // Lights whose rows the latest build_world or update_world wrote: ascending ranges that do not touch, and
+    // the one range around them all.
+    std::vector<IndexRange> changed;
+    std::uint32_t first_changed = 0;
+    std::uint32_t last_changed = 0;  // one past the last
+    std::uint64_t order_revision = 0;
+    std::uint64_t structure_revision = 0;
+    std::uint64_t revision = 0;
+};
+
+// Relative change of a light's power from which on the alias table follows it. Any table gives the same mean.
+inline constexpr double POWER_TOLERANCE = 1e-3;
+
+// Identities, as in WorldLights.
+inline std::uint64_t identify_punctual(std::uint32_t node) {
+    return (std::uint64_t(1) << 63) | node;
+}
+inline std::uint64_t identify_triangle(std::uint32_t scene_instance, std::uint32_t primitive) {
+    return (std::uint64_t(scene_instance) << 32) | primitive;
+}
+
+}  // namespace tarn

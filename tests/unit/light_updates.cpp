@@ -1,0 +1,390 @@
+// Lights while the scene moves and is edited: the table is that of a world built anew, a light keeps its
+// identity, and what did not change is not written.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <map>
+#include <set>
+
+#include "shared/math/light.h"
+#include "support/draws.h"
+#include "support/toy_scenes.h"
+#include "world/world.h"
+
+namespace tarn {
+namespace {
+
+using test::Draws;
+
+constexpr int LAMP_COUNT = 12;
+constexpr std::uint32_t LAMP_TRIANGLES = 2;
+
+Transform place(double x, double y, double z) {
+    Transform transform;
+    transform.translation = {x, y, z};
+    return transform;
+}
+
+// A floor that keeps the bounds, LAMP_COUNT emissive quads above it and three punctual lights, all on nodes
+// that can be moved.
+class MovableScene {
+  public:
+    MovableScene() {
+        const MaterialIndex grey = toy_.add_material(lambert_material(glm::vec3(0.5f)));
+        toy_.add_quad(grey, {-50, 0, 50}, {100, 0, 0}, {0, 0, -100});
+        toy_.add_quad(grey, {-50, 30, 50}, {100, 0, 0}, {0, 0, -100});
+        for (int i = 0; i < LAMP_COUNT; ++i) {
+            lamp_material = toy_.add_material(emissive_material(glm::vec3(1.0f + float(i))));
+            toy_.add_quad(lamp_material, {0, 0, 0}, {1, 0, 0}, {0, 0, 0.5f});
+            lamp_nodes.push_back(toy_.scene.instances.back().node);
+            free_node(lamp_nodes.back(), place(3.0 * i, 5.0, -1.0));
+        }
+        for (int i = 0; i < 3; ++i) add_point(float(10 + i));
+    }
+
+    Scene& scene() { return toy_.scene; }
+    Node& node(NodeIndex index) { return at(toy_.scene.nodes, index); }
+
+    NodeIndex add_point(float intensity) {
+        PunctualLight light;
+        light.intensity = glm::vec3(intensity);
+        toy_.add_light(light, glm::dmat4(1.0));
+        const NodeIndex index = scene().light_nodes.back();
+        free_node(index, place(intensity, 3.0, 0.0));
+        return index;
+    }
+
+    // Turns the node's matrix into a transform that can be set and animated.
+    void free_node(NodeIndex index, const Transform& local) {
+        node(index).matrix.reset();
+        node(index).local = local;
+    }
+
+    void update(World& world) {
+        ++scene().revision;
+        update_world(world, scene(), -1.0);
+    }
+
+    std::vector<NodeIndex> lamp_nodes;
+    MaterialIndex lamp_material;  // of the last lamp
+
+  private:
+    ToyScene toy_;
+};
+
+std::vector<glm::uvec4> rows_of(const WorldLights& lights, std::uint32_t light) {
+    const auto first = lights.rows.begin() + std::ptrdiff_t(light * LIGHT_ROWS);
+    return {first, first + LIGHT_ROWS};
+}
+
+// The table equals that of a world built anew from the scene as it is: rows and places to the bit, powers up
+// to their tolerance.
+void expect_as_built(const World& world, const Scene& scene, double time_s = -1.0) {
+    WorldOptions options;
+    options.time_s = time_s;
+    const World fresh = build_world(scene, options);
+    ASSERT_EQ(world.origin_ws, fresh.origin_ws) << "the test must keep the bounds";
+    EXPECT_EQ(world.lights.count, fresh.lights.count);
+    EXPECT_EQ(world.lights.punctual_count, fresh.lights.punctual_count);
+    EXPECT_EQ(world.lights.rows, fresh.lights.rows);
+    EXPECT_EQ(world.lights.identities, fresh.lights.identities);
+    EXPECT_EQ(world.lights.instance_first, fresh.lights.instance_first);
+    EXPECT_EQ(world.lights.light_of_primitive, fresh.lights.light_of_primitive);
+    ASSERT_EQ(world.lights.pmf.size(), fresh.lights.pmf.size());
+    for (std::size_t i = 0; i < fresh.lights.pmf.size(); ++i) {
+        EXPECT_NEAR(world.lights.pmf[i], fresh.lights.pmf[i], 2.0 * POWER_TOLERANCE * fresh.lights.pmf[i]);
+    }
+}
+
+struct Revisions {
+    explicit Revisions(const WorldLights& lights)
+        : order(lights.order_revision), structure(lights.structure_revision), any(lights.revision) {}
+    friend bool operator==(const Revisions&, const Revisions&) = default;
+    std::uint64_t order, structure, any;
+};
+
+// ---- Nothing, or only something, moves
+// -------------------------------------------------------------------------------------------
+
+TEST(LightUpdates, WhereNothingMovedNothingIsWrittenAndNoRevisionGrows) {
+    MovableScene movable;
+    World world = build_world(movable.scene());
+    EXPECT_EQ(world.lights.changed, (std::vector<IndexRange>{{0, world.lights.count}}));
+    const Revisions before(world.lights);
+    const std::vector<glm::uvec4> rows = world.lights.rows;
+    update_world(world, movable.scene(), -1.0);  // not even edited
+    EXPECT_EQ(Revisions(world.lights), before);
+    EXPECT_TRUE(world.lights.changed.empty());
+    movable.update(world);  // edited, but the same
+    EXPECT_EQ(Revisions(world.lights), before);
+    EXPECT_TRUE(world.lights.changed.empty());
+    EXPECT_EQ(world.lights.first_changed, world.lights.last_changed);
+    EXPECT_EQ(world.lights.rows, rows);
+}
+
+TEST(LightUpdates, ARigidMotionWritesOnlyTheTrianglesOfItsInstance) {
+    MovableScene movable;
+    World world = build_world(movable.scene());
+    const WorldLights before = world.lights;
+    for (const int lamp : {3, 4, 9}) {
+        Transform& local = movable.node(movable.lamp_nodes[std::size_t(lamp)]).local;
+        local.translation.y += 1.0;
+        local.rotation = glm::angleAxis(0.7 + lamp, glm::normalize(glm::dvec3(1.0, 2.0, 3.0)));
+    }
+    movable.update(world);
+    const std::uint32_t first = before.punctual_count;
+    const std::vector<IndexRange> moved = {{first + 3 * LAMP_TRIANGLES, first + 5 * LAMP_TRIANGLES},
+                                           {first + 9 * LAMP_TRIANGLES, first + 10 * LAMP_TRIANGLES}};
+    EXPECT_EQ(world.lights.changed, moved);
+    EXPECT_EQ(world.lights.first_changed, moved.front().first);
+    EXPECT_EQ(world.lights.last_changed, moved.back().last);
+    EXPECT_EQ(world.lights.structure_revision, before.structure_revision);
+    EXPECT_EQ(world.lights.revision, before.revision + 1);
+    EXPECT_EQ(world.lights.alias_rows, before.alias_rows);
+    expect_as_built(world, movable.scene());
+}
+
+TEST(LightUpdates, APunctualLightMovesAlone) {
+    MovableScene movable;
+    World world = build_world(movable.scene());
+    const Revisions before(world.lights);
+    movable.node(movable.scene().light_nodes[1]).local.translation.z += 2.0;
+    movable.update(world);
+    EXPECT_EQ(world.lights.changed, (std::vector<IndexRange>{{1, 2}}));
+    EXPECT_EQ(world.lights.structure_revision, before.structure);
+    expect_as_built(world, movable.scene());
+}
+
+TEST(LightUpdates, TheNextUpdateForgetsWhatTheLastOneWrote) {
+    MovableScene movable;
+    World world = build_world(movable.scene());
+    movable.node(movable.lamp_nodes[0]).local.translation.y += 1.0;
+    movable.update(world);
+    EXPECT_FALSE(world.lights.changed.empty());
+    update_world(world, movable.scene(), -1.0);
+    EXPECT_TRUE(world.lights.changed.empty());
+}
+
+// ---- Powers
+// ---------------------------------------------------------------------------------------------------------
+
+TEST(LightUpdates, AScaledInstanceChangesItsPower) {
+    MovableScene movable;
+    World world = build_world(movable.scene());
+    const WorldLights before = world.lights;
+    movable.node(movable.lamp_nodes[5]).local.scale = glm::dvec3(2.0);
+    movable.update(world);
+    const std::uint32_t light = before.punctual_count + 5 * LAMP_TRIANGLES;
+    EXPECT_NEAR(world.lights.powers[light], 4.0 * before.powers[light], 1e-4 * before.powers[light]);
+    EXPECT_EQ(world.lights.structure_revision, before.structure_revision + 1);
+    EXPECT_EQ(world.lights.order_revision, before.order_revision);
+    EXPECT_EQ(world.lights.identities, before.identities);
+    expect_as_built(world, movable.scene());
+}
+
+// Each step lies within the tolerance, all of them together far outside.
+TEST(LightUpdates, APowerThatCreepsIsNotLost) {
+    MovableScene movable;
+    World world = build_world(movable.scene());
+    for (int step = 0; step < 200; ++step) {
+        movable.node(movable.lamp_nodes[5]).local.scale *= 1.0002;
+        movable.update(world);
+    }
+    expect_as_built(world, movable.scene());
+}
+
+TEST(LightUpdates, AnInstanceThatShrinksToNothingLosesItsLightsAndGetsThemBack) {
+    MovableScene movable;
+    World world = build_world(movable.scene());
+    const WorldLights before = world.lights;
+    Transform& local = movable.node(movable.lamp_nodes[2]).local;
+    local.scale = glm::dvec3(0.0);
+    movable.update(world);
+    EXPECT_EQ(world.lights.count, before.count - LAMP_TRIANGLES);
+    EXPECT_EQ(world.lights.order_revision, before.order_revision + 1);
+    expect_as_built(world, movable.scene());
+    local.scale = glm::dvec3(1.0);
+    movable.update(world);
+    EXPECT_EQ(world.lights.identities, before.identities);
+    expect_as_built(world, movable.scene());
+}
+
+// ---- Edits
+// ----------------------------------------------------------------------------------------------------------
+
+TEST(LightUpdates, ADimmedLightChangesItsRowAndTheTable) {
+    MovableScene movable;
+    World world = build_world(movable.scene());
+    const WorldLights before = world.lights;
+    movable.scene().lights[1].intensity = glm::vec3(0.5f);
+    movable.update(world);
+    EXPECT_EQ(world.lights.changed, (std::vector<IndexRange>{{1, 2}}));
+    EXPECT_EQ(world.lights.structure_revision, before.structure_revision + 1);
+    EXPECT_EQ(world.lights.order_revision, before.order_revision);
+    expect_as_built(world, movable.scene());
+}
+
+TEST(LightUpdates, AnEditedEmissionReachesTheLightsOfItsMaterialAlone) {
+    MovableScene movable;
+    World world = build_world(movable.scene());
+    const WorldLights before = world.lights;
+    const std::uint64_t material_revision = world.material_revision;
+    Material& material = at(movable.scene().materials, movable.lamp_material);
+    material.emission = glm::vec3(100.0f, 1.0f, 1.0f);
+    movable.update(world);
+    EXPECT_EQ(world.lights.changed, (std::vector<IndexRange>{{before.count - LAMP_TRIANGLES, before.count}}));
+    EXPECT_EQ(world.material_revision, material_revision + 1);
+    expect_as_built(world, movable.scene());
+    material.emission = glm::vec3(0.0f);
+    movable.update(world);
+    EXPECT_EQ(world.lights.count, before.count - LAMP_TRIANGLES);
+    expect_as_built(world, movable.scene());
+}
+
+TEST(LightUpdates, TheLastLightMayGo) {
+    MovableScene movable;
+    World world = build_world(movable.scene());
+    movable.scene().light_nodes.clear();
+    for (Material& material : movable.scene().materials) material.emission = glm::vec3(0.0f);
+    movable.update(world);
+    EXPECT_EQ(world.lights.count, 0u);
+    EXPECT_TRUE(world.lights.changed.empty());
+    EXPECT_EQ(world.environment.width, 0u) << "a scene that went dark gets no sky";
+}
+
+// ---- Identities
+// -----------------------------------------------------------------------------------------------------
+
+// What a light shows of who it is: the intensities here are all different.
+using Faces = std::map<std::uint64_t, std::pair<float, std::uint32_t>>;
+
+Faces list_faces(const WorldLights& lights, const std::vector<std::uint64_t>& identities) {
+    Faces faces;
+    for (std::uint32_t i = 0; i < lights.count; ++i) {
+        const std::vector<glm::uvec4> rows = rows_of(lights, i);
+        const Light light = unpack_light(rows[0], rows[1], rows[2], rows[3]);
+        faces[identities[i]] = {light.radiance.x, light.primitive};
+    }
+    return faces;
+}
+
+// Lights known by both, with different faces.
+int count_mistaken(const Faces& before, const Faces& after) {
+    int mistaken = 0;
+    for (const auto& [identity, face] : before) {
+        const auto found = after.find(identity);
+        mistaken += found != after.end() && found->second != face;
+    }
+    return mistaken;
+}
+
+// Adds, removes, reorders and moves lights at random, and calls check(lights) after each step.
+void shuffle_lights(const std::function<void(const WorldLights&)>& check) {
+    MovableScene movable;
+    World world = build_world(movable.scene());
+    check(world.lights);
+    Draws draws(1);
+    for (int step = 0; step < 60; ++step) {
+        std::vector<NodeIndex>& nodes = movable.scene().light_nodes;
+        const std::size_t any = nodes.empty() ? 0 : draws.bits() % nodes.size();
+        const std::uint32_t choice = draws.bits() % 5u;
+        if (choice == 0u || nodes.empty()) {
+            movable.add_point(20.0f + float(step));
+        } else if (choice == 1u) {
+            nodes.erase(nodes.begin() + std::ptrdiff_t(any));
+        } else if (choice == 2u) {
+            std::swap(nodes[any], nodes.front());
+        } else if (choice == 3u) {
+            Transform& local = movable.node(movable.lamp_nodes[draws.bits() % LAMP_COUNT]).local;
+            local.scale = local.scale.x == 0.0 ? glm::dvec3(1.0) : glm::dvec3(0.0);
+        } else {
+            movable.node(nodes[any]).local.translation.x += 0.5;
+        }
+        movable.update(world);
+        check(world.lights);
+        expect_as_built(world, movable.scene());
+    }
+}
+
+TEST(LightUpdates, ALightKeepsItsIdentityWhateverIsAddedRemovedReorderedOrMoved) {
+    Faces before;
+    std::size_t known = 0;
+    shuffle_lights([&](const WorldLights& lights) {
+        const Faces faces = list_faces(lights, lights.identities);
+        EXPECT_EQ(faces.size(), lights.count) << "two lights share an identity";
+        EXPECT_EQ(count_mistaken(before, faces), 0);
+        for (const auto& face : before) known += faces.count(face.first);
+        before = faces;
+    });
+    EXPECT_GT(known, 60u * 12u) << "most lights were there before";
+}
+
+TEST(LightUpdates, NegativeControlIndicesAreNoIdentities) {
+    Faces before;
+    int mistaken = 0;
+    shuffle_lights([&](const WorldLights& lights) {
+        std::vector<std::uint64_t> indices(lights.count);
+        for (std::uint32_t i = 0; i < lights.count; ++i) indices[i] = i;
+        const Faces faces = list_faces(lights, indices);
+        mistaken += count_mistaken(before, faces);
+        before = faces;
+    });
+    EXPECT_GT(mistaken, 0);
+}
+
+// ---- Animations
+// -----------------------------------------------------------------------------------------------------
+
+void add_animation(Scene& scene, NodeIndex node, AnimatedProperty property, std::vector<float> values,
+                   int components) {
+    AnimationChannel channel;
+    channel.node = node;
+    channel.property = property;
+    channel.times_s = {0.0f, 1.0f};
+    channel.values = std::move(values);
+    channel.components = components;
+    if (scene.animations.empty()) scene.animations.emplace_back().duration_s = 1.0;
+    scene.animations[0].channels.push_back(channel);
+}
+
+TEST(LightUpdates, AnimatedLightsAreWhereANewWorldHasThem) {
+    MovableScene movable;
+    Scene& scene = movable.scene();
+    add_animation(scene, movable.lamp_nodes[1], AnimatedProperty::TRANSLATION, {0, 2, 0, 5, 9, 1}, 3);
+    add_animation(scene, movable.lamp_nodes[7], AnimatedProperty::ROTATION, {0, 0, 0, 1, 0, 1, 0, 0}, 4);
+    add_animation(scene, movable.lamp_nodes[8], AnimatedProperty::SCALE, {1, 1, 1, 2, -3, 4}, 3);
+    World world = build_world(scene);
+    for (const double time_s : {0.0, 0.3, 0.31, 0.9, 0.1}) {
+        update_world(world, scene, time_s);
+        expect_as_built(world, scene, time_s);
+    }
+    const Revisions before(world.lights);
+    update_world(world, scene, 0.1);
+    EXPECT_EQ(Revisions(world.lights), before) << "the same moment again";
+}
+
+TEST(LightUpdates, ADeformingEmitterIsFollowedTriangleByTriangle) {
+    MovableScene movable;
+    Scene& scene = movable.scene();
+    const NodeIndex node = movable.lamp_nodes[6];
+    for (const Instance& instance : scene.instances) {
+        if (instance.node != node) continue;
+        MorphTarget target;
+        target.positions_os.assign(6, glm::vec3(0.0f));
+        target.positions_os[4] = {3.0f, 0.0f, 0.0f};  // of the second triangle alone
+        at(scene.meshes, instance.mesh).morph_targets.push_back(target);
+    }
+    movable.node(node).morph_weights = {0.0f};
+    add_animation(scene, node, AnimatedProperty::WEIGHTS, {0, 1}, 1);
+    World world = build_world(scene);
+    const std::uint32_t second = world.lights.punctual_count + 6 * LAMP_TRIANGLES + 1;
+    update_world(world, scene, 0.5);
+    EXPECT_EQ(world.lights.changed, (std::vector<IndexRange>{{second, second + 1}}));
+    expect_as_built(world, scene, 0.5);
+    const Revisions before(world.lights);
+    update_world(world, scene, 0.5);
+    EXPECT_EQ(Revisions(world.lights), before) << "the same moment again";
+}
+
+}  // namespace
+}  // namespace tarn
