@@ -5,6 +5,7 @@
 #include "shared/interface/records.h"
 #include "shared/math/alias_table.h"
 #include "shared/math/environment.h"
+#include "shared/math/light_tree.h"
 #include "shared/math/random.h"
 #include "shared/math/ray_offset.h"
 #include "shared/math/reservoir.h"
@@ -27,6 +28,8 @@ class SceneAccess {
     vec4 fetch_texel(uint texel) const { return vec4(world_.texels[texel]) * (1.0f / 65535.0f); }
     uvec4 fetch_light_row(uint row) const { return world_.lights.rows[row]; }
     uvec4 fetch_light_alias_row(uint row) const { return world_.lights.alias_rows[row]; }
+    uvec4 fetch_light_tree_row(uint row) const { return world_.light_tree.rows[row]; }
+    uint get_light_tree_node_count() const { return world_.light_tree.node_count; }
     vec4 fetch_environment_texel(uint texel) const { return world_.environment.texels[texel]; }
     uvec4 fetch_environment_alias_row(uint row) const { return world_.environment.alias_rows[row]; }
     uint get_light_count() const { return world_.lights.count; }
@@ -43,6 +46,8 @@ class SceneAccess {
 
 #include "shared/scene/lights.h"
 #include "shared/scene/surface.h"
+// Builds on lights.h.
+#include "shared/scene/light_tree.h"
 
   private:
     const World& world_;

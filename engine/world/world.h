@@ -15,6 +15,7 @@
 #include "scene/pose.h"
 #include "scene/scene.h"
 #include "shared/interface/records.h"
+#include "world/light_tree.h"
 #include "world/lights.h"
 
 namespace tarn {
@@ -68,6 +69,7 @@ struct World {
     std::vector<std::uint32_t> material_flags;  // MATERIAL_*, one a material
     std::vector<glm::u16vec4> texels;
     WorldLights lights;
+    LightTree light_tree;  // empty until update_light_tree is called
     WorldEnvironment environment;
     std::uint64_t scene_revision = 0;     // Scene::revision that this world follows
     std::uint64_t material_revision = 0;  // grows when material rows change

@@ -1,0 +1,582 @@
+// Drawing lights by the tree: probabilities by enumeration, draws by chi-square, bounds by looking at every
+// light below every node, and no light that could contribute left out.
+#include "world/light_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "support/histogram.h"
+#include "support/light_scenes.h"
+#include "world/scene_access.h"
+
+namespace tarn {
+namespace {
+
+using test::Draws;
+using test::LightScene;
+using test::SIGNIFICANCE;
+
+// A place on a surface; all spaces are relative to the world's origin.
+struct ShadingPoint {
+    vec3 position;
+    vec3 normal;
+};
+
+World build_lit_world(const Scene& scene) {
+    World world = build_world(scene);
+    update_light_tree(world);
+    return world;
+}
+
+World build_random_world(std::uint64_t seed, int count, bool directional = true) {
+    LightScene lights(seed);
+    lights.add_lights(count, directional);
+    return build_lit_world(lights.scene());
+}
+
+// A point anywhere, on a light, or a hair beside one.
+ShadingPoint draw_point(const World& world, Draws& draws) {
+    ShadingPoint point{draws.unit_vector() * float(draws.uniform(0.0, 12.0)), draws.unit_vector()};
+    const std::uint32_t choice = draws.bits() % 4u;
+    if (choice > 1u || world.lights.count == 0) return point;
+    SceneAccess access(world);
+    const Light light = access.load_light(draws.bits() % world.lights.count);
+    point.position = access.is_triangle(light) ? triangle_point(light, vec2(0.3f, 0.3f)) : light.position;
+    if (choice == 1u) point.position += draws.unit_vector() * 1e-4f;
+    return point;
+}
+
+std::vector<float> list_pmf(const World& world, const ShadingPoint& point) {
+    SceneAccess access(world);
+    std::vector<float> pmf(world.lights.count);
+    for (std::uint32_t i = 0; i < world.lights.count; ++i) {
+        pmf[i] = access.light_tree_pmf(i, point.position, point.normal);
+    }
+    return pmf;
+}
+
+double sum_of(const std::vector<float>& values) {
+    double sum = 0.0;
+    for (const float value : values) sum += value;
+    return sum;
+}
+
+// ---- Probabilities
+// --------------------------------------------------------------------------------------------------
+
+TEST(LightTree, ProbabilitiesSumToOneAtAnyPoint) {
+    for (const int count : {4, 8, 60, 1000}) {
+        const World world = build_random_world(std::uint64_t(count), count);
+        Draws draws(1);
+        for (int i = 0; i < 50; ++i) {
+            EXPECT_NEAR(sum_of(list_pmf(world, draw_point(world, draws))), 1.0, 1e-5) << count;
+        }
+    }
+}
+
+DiscreteSample draw_light(SceneAccess& access, const ShadingPoint& point, std::uint32_t index) {
+    return access.choose_light_by_tree(random_bits4({index, 3u, 7u}, DIMENSION_CANDIDATE), point.position,
+                                       point.normal);
+}
+
+// p value of "draws at this point follow `pmf`".
+double draws_p_value(const World& world, const ShadingPoint& point, const std::vector<float>& pmf) {
+    constexpr std::uint32_t DRAW_COUNT = 200'000;
+    SceneAccess access(world);
+    std::vector<double> observed(pmf.size()), expected(pmf.size());
+    for (std::size_t i = 0; i < pmf.size(); ++i) expected[i] = double(pmf[i]) * DRAW_COUNT;
+    for (std::uint32_t i = 0; i < DRAW_COUNT; ++i) ++observed[draw_light(access, point, i).index];
+    return chi_square_test(observed, expected).p_value;
+}
+
+constexpr int POINT_COUNT = 8;
+
+TEST(LightTree, DrawsFollowTheirProbabilities) {
+    const World world = build_random_world(5, 200);
+    Draws draws(2);
+    for (int i = 0; i < POINT_COUNT; ++i) {
+        const ShadingPoint point = draw_point(world, draws);
+        EXPECT_GT(draws_p_value(world, point, list_pmf(world, point)),
+                  sidak_threshold(SIGNIFICANCE, POINT_COUNT));
+    }
+}
+
+// The light's way down, and a wrong copy of its probability that forgets what was decided at one level.
+float pmf_without_level(const World& world, std::uint32_t light, const ShadingPoint& point, int forgotten) {
+    SceneAccess access(world);
+    const LightTree& tree = world.light_tree;
+    float pmf = 1.0f;
+    int height = 0;
+    for (std::uint32_t node = tree.leaves[light]; node != 0; node = tree.parents[(node - 2) / 2], ++height) {
+        const auto pair = access.load_light_tree_pair(node & ~1u, point.position, point.normal);
+        const uint share = (node & 1u) == 0u ? pair.left_share : 16777216u - pair.left_share;
+        if (height != forgotten) pmf *= float(share) / 16777216.0f;
+    }
+    return pmf;
+}
+
+TEST(LightTree, NegativeControlAProbabilityWithoutOneLevelFails) {
+    const World world = build_random_world(5, 200, false);
+    Draws draws(2);
+    const ShadingPoint point{draws.unit_vector(), draws.unit_vector()};
+    for (const int forgotten : {-1, 0, 2}) {
+        std::vector<float> pmf(world.lights.count);
+        for (std::uint32_t i = 0; i < pmf.size(); ++i) pmf[i] = pmf_without_level(world, i, point, forgotten);
+        const double p_value = draws_p_value(world, point, pmf);
+        if (forgotten < 0) {
+            EXPECT_GT(p_value, SIGNIFICANCE) << "the copy is right where it forgets nothing";
+        } else {
+            EXPECT_LT(p_value, SIGNIFICANCE) << forgotten;
+            EXPECT_GT(std::abs(sum_of(pmf) - 1.0), 0.1) << forgotten;
+        }
+    }
+}
+
+TEST(LightTree, ADrawReportsTheProbabilityThatItsLightHas) {
+    const World world = build_random_world(6, 300);
+    SceneAccess access(world);
+    Draws draws(3);
+    for (std::uint32_t i = 0; i < 5000; ++i) {
+        const ShadingPoint point = draw_point(world, draws);
+        const DiscreteSample drawn = draw_light(access, point, i);
+        ASSERT_LT(drawn.index, world.lights.count);
+        ASSERT_GT(drawn.pmf, 0.0f);
+        ASSERT_EQ(drawn.pmf, access.light_tree_pmf(drawn.index, point.position, point.normal));
+    }
+}
+
+// ---- No light is left out
+// ---------------------------------------------------------------------------------------------
+
+// What a light sends to the front of a surface from a place that u chooses.
+float irradiance_from(SceneAccess& access, std::uint32_t light, vec2 u, const ShadingPoint& point) {
+    LightSample sample;
+    sample.light = light;
+    sample.uv = sample_triangle(u);
+    const IncidentLight incident = access.load_incident_light(sample, point.position);
+    return max_component(incident.value) * std::max(0.0f, dot(point.normal, incident.direction));
+}
+
+// Pairs of point and light where light arrives though the tree says that it is never drawn. `seen` counts the
+// pairs where light arrives.
+int count_lost_lights(const World& world, std::uint64_t seed, int& seen) {
+    SceneAccess access(world);
+    Draws draws(seed);
+    int lost = 0;
+    for (int i = 0; i < 60; ++i) {
+        const ShadingPoint point = draw_point(world, draws);
+        const std::vector<float> pmf = list_pmf(world, point);
+        for (std::uint32_t light = 0; light < world.lights.count; ++light) {
+            bool arrives = false;
+            for (int s = 0; s < 8; ++s) {
+                arrives = arrives || irradiance_from(access, light, draws.uniform_vec2(), point) > 0.0f;
+            }
+            seen += arrives;
+            lost += arrives && !(pmf[light] > 0.0f);
+        }
+    }
+    return lost;
+}
+
+TEST(LightTree, EveryLightThatContributesCanBeDrawn) {
+    int seen = 0;
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        EXPECT_EQ(count_lost_lights(build_random_world(seed, 40), seed, seen), 0) << seed;
+    }
+    EXPECT_GT(seen, 10'000);
+}
+
+// Applies `change` to each inner node and leaf but the root.
+template <class Change>
+void change_nodes(World& world, const Change& change) {
+    for (std::uint32_t node = 2; node < world.light_tree.node_count; ++node) {
+        glm::uvec4* rows = &world.light_tree.rows[std::size_t(node) * LIGHT_TREE_NODE_ROWS];
+        LightTreeNode unpacked = unpack_light_tree_node(rows[0], rows[1]);
+        change(unpacked);
+        pack_light_tree_node(unpacked, rows[0], rows[1]);
+    }
+}
+
+TEST(LightTree, NegativeControlBoundsThatAreTooNarrowLoseLights) {
+    int seen = 0;
+    World world = build_random_world(3, 40);
+    change_nodes(world, [](LightTreeNode& node) { node.radius = 0.0f; });
+    EXPECT_GT(count_lost_lights(world, 3, seen), 0) << "spheres shrunk to their centres";
+    world = build_random_world(3, 40);
+    change_nodes(world, [](LightTreeNode& node) { node.cos_normals = 1.0f; });
+    EXPECT_GT(count_lost_lights(world, 3, seen), 0) << "cones shrunk to their axes";
+    world = build_random_world(3, 40);
+    change_nodes(world, [](LightTreeNode& node) { node.link &= ~LIGHT_TREE_TWO_SIDED; });
+    EXPECT_GT(count_lost_lights(world, 3, seen), 0) << "backs forgotten";
+}
+
+// Lights and surfaces that nearly graze each other's horizons, small and far away, where rounding decides.
+TEST(LightTree, LightsAtTheHorizonAreNotLostToRounding) {
+    Draws draws(4);
+    int lost = 0, seen = 0;
+    for (int i = 0; i < 300; ++i) {
+        LightScene lights(static_cast<std::uint64_t>(i));
+        lights.add_punctual(LightKind::POINT);
+        const MaterialIndex lamp = lights.toy().add_material(emissive_material(vec3(1.0f)));
+        lights.toy().add_quad(lamp, {0, 0, 0}, {1e-3f, 0, 0}, {0, 0, -1e-3f});  // faces +Y
+        const World world = build_lit_world(lights.scene());
+        SceneAccess access(world);
+        for (std::uint32_t light = 0; light < world.lights.count; ++light) {
+            const vec3 place = access.load_light(light).position;
+            const float distance = float(std::pow(10.0, draws.uniform(-2.0, 4.0)));
+            const float tilt = float(std::pow(10.0, draws.uniform(-9.0, -3.0)));
+            const vec3 away =
+                normalize(vec3(draws.uniform_float() - 0.5f, tilt, draws.uniform_float() - 0.5f));
+            ShadingPoint point{place + away * distance, vec3(0.0f)};
+            point.normal = normalize(cross(away, draws.unit_vector()) - away * tilt);
+            if (!(irradiance_from(access, light, vec2(0.5f), point) > 0.0f)) continue;
+            ++seen;
+            lost += !(access.light_tree_pmf(light, point.position, point.normal) > 0.0f);
+        }
+    }
+    EXPECT_EQ(lost, 0);
+    EXPECT_GT(seen, 300);
+}
+
+// ---- What it is for
+// ---------------------------------------------------------------------------------------------------
+
+// Moments of irradiance / pmf with lights drawn by the tree, each light seen from the middle of its surface.
+template <class Draw>
+RunningMoments estimate(SceneAccess& access, const ShadingPoint& point, const Draw& draw) {
+    RunningMoments moments;
+    for (std::uint32_t i = 0; i < 100'000; ++i) {
+        const DiscreteSample light = draw(i);
+        moments.add(double(irradiance_from(access, light.index, vec2(0.5f), point)) / light.pmf);
+    }
+    return moments;
+}
+
+double enumerate_irradiance(SceneAccess& access, const ShadingPoint& point) {
+    double sum = 0.0;
+    for (std::uint32_t light = 0; light < access.get_light_count(); ++light) {
+        sum += irradiance_from(access, light, vec2(0.5f), point);
+    }
+    return sum;
+}
+
+// Variance of irradiance / pmf over all lights. (What was drawn cannot tell it: the rarest lights decide.)
+double enumerate_variance(SceneAccess& access, const ShadingPoint& point) {
+    double sum = 0.0;
+    for (std::uint32_t light = 0; light < access.get_light_count(); ++light) {
+        const double value = irradiance_from(access, light, vec2(0.5f), point);
+        if (value > 0.0) sum += value * value / access.light_tree_pmf(light, point.position, point.normal);
+    }
+    const double mean = enumerate_irradiance(access, point);
+    return sum - mean * mean;
+}
+
+TEST(LightTree, TheMeanOfItsEstimatesIsTheSumOverAllLights) {
+    const World world = build_random_world(8, 120);
+    SceneAccess access(world);
+    Draws draws(5);
+    for (int i = 0; i < POINT_COUNT; ++i) {
+        const ShadingPoint point{vec3(draws.unit_vector()) * 3.0f, draws.unit_vector()};
+        const RunningMoments moments =
+            estimate(access, point, [&](std::uint32_t index) { return draw_light(access, point, index); });
+        const double variance = enumerate_variance(access, point) / double(moments.count());
+        const double z = (moments.mean() - enumerate_irradiance(access, point)) / std::sqrt(variance);
+        EXPECT_GT(normal_two_sided_p_value(z), sidak_threshold(SIGNIFICANCE, POINT_COUNT)) << i;
+    }
+}
+
+// A hall of small lamps that face down: a point is lit by those around it, which power knows nothing of.
+TEST(LightTree, InAHallOfLampsItsVarianceIsAQuarterOfThatByPowerAtMost) {
+    ToyScene toy;
+    const MaterialIndex lamp = toy.add_material(emissive_material(vec3(5.0f)));
+    std::vector<vec3> corners;
+    for (int i = 0; i < 1024; ++i) {
+        const vec3 place(float(i % 32), 2.0f, float(i / 32));
+        corners.insert(corners.end(), {place, place + vec3(0.1f, 0, 0), place + vec3(0, 0, 0.1f)});
+    }
+    toy.add_instance(toy.add_mesh(lamp, corners));
+    const World world = build_lit_world(toy.scene);
+    SceneAccess access(world);
+    const ShadingPoint point{vec3(0.3f, -2.0f, 0.2f), vec3(0.0f, 1.0f, 0.0f)};
+    const RunningMoments by_tree =
+        estimate(access, point, [&](std::uint32_t index) { return draw_light(access, point, index); });
+    const RunningMoments by_power = estimate(access, point, [&](std::uint32_t index) {
+        const uvec4 bits = random_bits4({index, 3u, 7u}, DIMENSION_CANDIDATE);
+        const uint bucket = uniform_index(bits.x, world.lights.count);
+        return resolve_alias(unpack_alias_bucket(world.lights.alias_rows[bucket]), bucket,
+                             float_from_bits(bits.y));
+    });
+    EXPECT_GT(enumerate_irradiance(access, point), 0.0);
+    EXPECT_LT(by_tree.variance(), 0.25 * by_power.variance());
+}
+
+TEST(LightTree, ACandidatesDensityIsThatOfItsLightTimesOneOverItsArea) {
+    const World world = build_random_world(9, 40);
+    SceneAccess access(world);
+    Draws draws(6);
+    const ShadingPoint point = draw_point(world, draws);
+    for (std::uint32_t i = 0; i < 1000; ++i) {
+        const uvec4 bits = random_bits4({i, 0u, 1u}, DIMENSION_CANDIDATE);
+        const auto candidate = access.draw_light_by_tree(bits, point.position, point.normal);
+        const Light light = access.load_light(candidate.drawn.light);
+        const float pmf = access.light_tree_pmf(candidate.drawn.light, point.position, point.normal);
+        EXPECT_FLOAT_EQ(candidate.pdf, access.is_triangle(light) ? pmf / triangle_area(light) : pmf);
+    }
+}
+
+// ---- Odd tables
+// -------------------------------------------------------------------------------------------------------
+
+void expect_sums_to_one(const World& world) {
+    Draws draws(7);
+    for (int i = 0; i < 20; ++i) {
+        EXPECT_NEAR(sum_of(list_pmf(world, draw_point(world, draws))), 1.0, 1e-5);
+    }
+}
+
+TEST(LightTree, WithoutLightsThereIsNothingToDraw) {
+    const World world = build_lit_world(ToyScene().scene);
+    SceneAccess access(world);
+    EXPECT_EQ(access.get_light_tree_node_count(), 0u);
+    const auto none = access.draw_light_by_tree(uvec4(1u), vec3(0.0f), vec3(0.0f, 1.0f, 0.0f));
+    EXPECT_EQ(none.drawn.light, INVALID_INDEX);
+    EXPECT_EQ(none.pdf, 0.0f);
+}
+
+TEST(LightTree, OneLightIsAlwaysDrawn) {
+    for (const LightKind kind : {LightKind::POINT, LightKind::SPOT, LightKind::DIRECTIONAL}) {
+        LightScene lights(10);
+        lights.add_punctual(kind);
+        const World world = build_lit_world(lights.scene());
+        expect_sums_to_one(world);
+    }
+}
+
+TEST(LightTree, DirectionalLightsShareTheirShareAlike) {
+    const World world = build_random_world(11, 20);
+    int directional = 0;
+    for (std::uint32_t i = 0; i < world.lights.count; ++i) {
+        SceneAccess access(world);
+        if ((access.load_light(i).flags & LIGHT_KIND_MASK) != LIGHT_DIRECTIONAL) continue;
+        ++directional;
+        EXPECT_EQ(access.light_tree_pmf(i, vec3(0.0f), vec3(0.0f, 1.0f, 0.0f)), DIRECTIONAL_SHARE / 2.0f);
+    }
+    EXPECT_EQ(directional, 2);
+}
+
+TEST(LightTree, ManyLightsAtOnePlaceShareAlike) {
+    ToyScene toy;
+    for (int i = 0; i < 1000; ++i) toy.add_light(PunctualLight{}, glm::dmat4(1.0));
+    const World world = build_lit_world(toy.scene);
+    const std::vector<float> pmf = list_pmf(world, {vec3(1.0f, 0.0f, 0.0f), vec3(-1.0f, 0.0f, 0.0f)});
+    for (const float p : pmf) EXPECT_NEAR(p, 1e-3, 1e-4);
+    expect_sums_to_one(world);
+}
+
+TEST(LightTree, LightsInARowAreDividedToo) {
+    ToyScene toy;
+    for (int i = 0; i < 300; ++i) {
+        toy.add_light(PunctualLight{}, glm::translate(glm::dmat4(1.0), glm::dvec3(0.01 * i, 0.0, 0.0)));
+    }
+    expect_sums_to_one(build_lit_world(toy.scene));
+}
+
+// Each division would take one light off the end of a series that halves: 200 levels.
+TEST(LightTree, NoTrailIsLongerThanItsBits) {
+    ToyScene toy;
+    for (int i = 0; i < 120; ++i) {
+        PunctualLight light;
+        light.intensity = vec3(float(std::pow(2.0, 0.5 * i)));
+        toy.add_light(light, glm::translate(glm::dmat4(1.0), glm::dvec3(std::pow(0.5, i), 0.0, 0.0)));
+    }
+    const World world = build_lit_world(toy.scene);
+    const LightTree& tree = world.light_tree;
+    std::uint32_t deepest = 0;
+    for (const std::uint32_t leaf : tree.leaves) {
+        std::uint32_t depth = 0;
+        for (std::uint32_t node = leaf; node != 0; node = tree.parents[(node - 2) / 2]) ++depth;
+        deepest = std::max(deepest, depth);
+    }
+    EXPECT_LE(deepest, LIGHT_TREE_MAX_DEPTH);
+    EXPECT_GT(deepest, 10u) << "the series must be a hard one";
+    expect_sums_to_one(world);
+}
+
+TEST(LightTree, IntensitiesOverManyDecadesAllCount) {
+    ToyScene toy;
+    for (int i = 0; i < 64; ++i) {
+        PunctualLight light;
+        light.intensity = vec3(float(std::pow(10.0, -8.0 + 16.0 * i / 63.0)));
+        toy.add_light(light, glm::translate(glm::dmat4(1.0), glm::dvec3(0.1 * i, 0.0, 0.0)));
+    }
+    const World world = build_lit_world(toy.scene);
+    expect_sums_to_one(world);
+    for (const float p : list_pmf(world, {vec3(3.0f, -1.0f, 0.0f), vec3(0.0f, 1.0f, 0.0f)}))
+        EXPECT_GT(p, 0.0f);
+}
+
+// ---- Bounds, built and fitted
+// -----------------------------------------------------------------------------------------
+
+struct Violations {
+    int place = 0, normal = 0, intensity = 0;
+};
+
+// Whether the light's normal is outside of the node's cone by more than a tenth of what draws allow for.
+bool is_outside_cone(const LightTreeNode& node, const Light& light) {
+    glm::dvec3 normal = cross(glm::dvec3(light.edge1), glm::dvec3(light.edge2));
+    if ((light.flags & LIGHT_MIRRORED) != 0u) normal = -normal;
+    const glm::dvec3 axis(node.axis);
+    double cosine = dot(axis, normal);
+    if ((node.link & LIGHT_TREE_TWO_SIDED) != 0u) cosine = std::abs(cosine);
+    const double angle_rad = std::atan2(glm::length(glm::cross(axis, normal)), cosine);
+    return angle_rad > std::acos(double(node.cos_normals)) + 0.1 * LIGHT_TREE_SLACK;
+}
+
+// Walks down and compares each node with every light below it; returns those lights.
+std::vector<std::uint32_t> check_node(const World& world, std::uint32_t index, Violations& violations) {
+    SceneAccess access(world);
+    const LightTreeNode node = access.load_light_tree_node(index);
+    const std::uint32_t link = node.link & LIGHT_TREE_INDEX_MASK;
+    std::vector<std::uint32_t> below;
+    if ((node.link & LIGHT_TREE_LEAF) != 0u) {
+        below.push_back(link);
+    } else {
+        below = check_node(world, link, violations);
+        const std::vector<std::uint32_t> right = check_node(world, link + 1, violations);
+        below.insert(below.end(), right.begin(), right.end());
+    }
+    double intensity = 0.0;
+    for (const std::uint32_t i : below) {
+        const Light light = access.load_light(i);
+        intensity += bound_light(light, world.lights.powers[i]).intensity;
+        const bool triangle = access.is_triangle(light);
+        for (const vec2 corner : {vec2(0, 0), vec2(1, 0), vec2(0, 1)}) {
+            const vec3 place = triangle ? triangle_point(light, corner) : light.position;
+            violations.place += length(place - node.centre) > node.radius * 1.00001f + 1e-6f;
+        }
+        violations.normal += triangle && is_outside_cone(node, light);
+    }
+    violations.intensity += std::abs(node.intensity - intensity) > 1e-4 * intensity;
+    return below;
+}
+
+void expect_sound(const World& world) {
+    Violations violations;
+    std::vector<std::uint32_t> lights = check_node(world, 0, violations);
+    EXPECT_EQ(violations.place, 0);
+    EXPECT_EQ(violations.normal, 0);
+    EXPECT_EQ(violations.intensity, 0);
+    std::sort(lights.begin(), lights.end());
+    EXPECT_EQ(std::adjacent_find(lights.begin(), lights.end()), lights.end()) << "a light is there twice";
+    std::size_t members = 0;
+    for (const std::uint32_t leaf : world.light_tree.leaves) members += leaf != INVALID_INDEX;
+    EXPECT_EQ(lights.size(), members);
+}
+
+TEST(LightTree, EachNodeHoldsAllThatIsBelowIt) {
+    for (const int count : {4, 8, 60, 1000}) expect_sound(build_random_world(std::uint64_t(count), count));
+}
+
+TEST(LightTree, TheTreeDoesNotDependOnThreads) {
+    EXPECT_EQ(build_random_world(12, 6000).light_tree.rows, build_random_world(12, 6000).light_tree.rows);
+}
+
+// Moves some nodes of the scene, which is then edited.
+void move_some(LightScene& lights, Draws& draws) {
+    for (Node& node : lights.scene().nodes) {
+        if (draws.uniform() < 0.2) (*node.matrix)[3] += glm::dvec4(glm::dvec3(draws.unit_vector()), 0.0);
+    }
+    ++lights.scene().revision;
+}
+
+LightScene make_movable() {
+    LightScene lights(13);
+    for (int i = 0; i < 40; ++i) lights.add_triangles(20);
+    for (int i = 0; i < 20; ++i) lights.add_punctual(i % 2 == 0 ? LightKind::POINT : LightKind::SPOT);
+    return lights;
+}
+
+TEST(LightTree, AFittedTreeHoldsWhatMovedAndIsBuiltNoMore) {
+    LightScene lights = make_movable();
+    World world = build_lit_world(lights.scene());
+    Draws draws(8);
+    for (int step = 0; step < 10; ++step) {
+        const LightTree before = world.light_tree;
+        move_some(lights, draws);
+        update_world(world, lights.scene(), -1.0);
+        update_light_tree(world);
+        EXPECT_EQ(world.light_tree.structure_revision, before.structure_revision);
+        EXPECT_EQ(world.light_tree.revision, before.revision + 1);
+        EXPECT_EQ(world.light_tree.leaves, before.leaves);
+        expect_sound(world);
+        expect_sums_to_one(world);
+        // The boxes, if not their order, are those of a tree built anew.
+        const World fresh = build_lit_world(lights.scene());
+        const vec3 shift = vec3(fresh.origin_ws - world.origin_ws);
+        const LightBounds &fitted = world.light_tree.bounds[0], &built = fresh.light_tree.bounds[0];
+        EXPECT_LT(length(fitted.lower - built.lower - shift), 1e-5f);
+        EXPECT_LT(length(fitted.upper - built.upper - shift), 1e-5f);
+    }
+}
+
+TEST(LightTree, OnlyTheRowsThatItNamesWereWritten) {
+    LightScene lights = make_movable();
+    World world = build_lit_world(lights.scene());
+    std::vector<glm::uvec4> copy = world.light_tree.rows;
+    Draws draws(9);
+    (*lights.scene().nodes[5].matrix)[3].y += 0.5;
+    ++lights.scene().revision;
+    update_world(world, lights.scene(), -1.0);
+    update_light_tree(world);
+    std::size_t written = 0;
+    for (const IndexRange& range : world.light_tree.changed) {
+        for (std::uint32_t row = range.first; row < range.last; ++row) copy[row] = world.light_tree.rows[row];
+        written += range.last - range.first;
+    }
+    EXPECT_EQ(copy, world.light_tree.rows);
+    EXPECT_GT(written, 0u);
+    EXPECT_LT(written, world.light_tree.rows.size());
+    update_light_tree(world);
+    EXPECT_TRUE(world.light_tree.changed.empty());
+}
+
+TEST(LightTree, UpdatesThatItMissedAreMadeUpFor) {
+    LightScene lights = make_movable();
+    World every = build_lit_world(lights.scene());
+    World last = every;
+    Draws draws(10);
+    for (int step = 0; step < 3; ++step) {
+        move_some(lights, draws);
+        update_world(every, lights.scene(), -1.0);
+        update_light_tree(every);
+        update_world(last, lights.scene(), -1.0);
+    }
+    update_light_tree(last);
+    EXPECT_EQ(last.light_tree.rows, every.light_tree.rows);
+}
+
+TEST(LightTree, ItIsBuiltAnewWhereLightsComeAndGo) {
+    LightScene lights = make_movable();
+    World world = build_lit_world(lights.scene());
+    const std::uint64_t before = world.light_tree.structure_revision;
+    lights.scene().light_nodes.erase(lights.scene().light_nodes.begin() + 3);
+    ++lights.scene().revision;
+    update_world(world, lights.scene(), -1.0);
+    update_light_tree(world);
+    EXPECT_EQ(world.light_tree.structure_revision, before + 1);
+    expect_sound(world);
+    expect_sums_to_one(world);
+    lights.scene().lights[5].kind = LightKind::DIRECTIONAL;  // the same light leaves the tree
+    ++lights.scene().revision;
+    update_world(world, lights.scene(), -1.0);
+    update_light_tree(world);
+    expect_sound(world);
+    expect_sums_to_one(world);
+}
+
+}  // namespace
+}  // namespace tarn
