@@ -139,6 +139,38 @@ TEST(ManyLights, RefusesCountsOutOfRange) {
     }
 }
 
+TEST(ManyLights, MovesAsManyAsItIsTold) {
+    for (const double percent : {0.0, 0.1, 1.0, 50.0, 100.0}) {
+        SceneOptions options;
+        options.count = 3000;
+        options.moving_percent = percent;
+        const ReadScene scene = read_scene(generate_scene("many_lights", options));
+        std::set<int> drifting;
+        for (const tinygltf::Animation& animation : scene.model.animations) {
+            for (const tinygltf::AnimationChannel& channel : animation.channels)
+                drifting.insert(channel.target_node);
+        }
+        std::size_t lights = 0, moving = 0;
+        for (const ReadTriangle& t : scene.triangles) {
+            if (scene.radiance(t.material) == glm::dvec3(0.0)) continue;
+            ++lights;
+            moving += drifting.count(static_cast<int>(t.node));
+        }
+        EXPECT_EQ(lights, 3000u);
+        EXPECT_EQ(moving, static_cast<std::size_t>(std::ceil(30.0 * percent)));
+        EXPECT_GE(100 * drifting.size(), moving);
+        EXPECT_NEAR(luminous_power(scene), 8000.0, 8.0);
+    }
+}
+
+TEST(ManyLights, RefusesToMoveMoreThanThereAre) {
+    for (const double percent : {-1.0, 100.5, std::nan("")}) {
+        SceneOptions options;
+        options.moving_percent = percent;
+        EXPECT_THROW(generate_scene("many_lights", options), Error);
+    }
+}
+
 TEST(ManyLights, ChangesWithTheSeed) {
     SceneOptions other;
     other.seed = 2;

@@ -18,6 +18,8 @@ int run(int argc, char** argv) {
     app.add_option("--out", out, "The .glb file to write")->required();
     app.add_option("--count", options.count, "many_lights: number of emissive triangles, 1 to 1000000")
         ->capture_default_str();
+    app.add_option("--moving", options.moving_percent, "many_lights: per cent of them that drift, 0 to 100")
+        ->capture_default_str();
     app.add_option("--seed", options.seed, "Seed of everything random")->capture_default_str();
     try {
         app.parse(argc, argv);

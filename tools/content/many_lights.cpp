@@ -11,6 +11,8 @@ namespace {
 
 constexpr float HALF_FLOOR_M = 20.0f;
 constexpr int MAX_COUNT = 1000000;
+constexpr float DRIFT_M = 0.6f;  // how far a drifting light comes from its place at most, or little more
+constexpr std::size_t GROUP_SIZE = 100;
 constexpr double TOTAL_POWER = 8000.0;  // luminous sum of pi * area * radiance over all triangles
 
 // Hues of the lights; each is scaled to luminance 1.
@@ -90,26 +92,76 @@ void append_light(Shape& shape, const Random& random, std::uint64_t index, const
     shape.triangles.push_back(base + glm::uvec3(0, 1, 2));
 }
 
-// One mesh, one part for each hue that is used.
-void add_lights(GltfWriter& writer, const Random& random, int count, const std::vector<Box>& boxes) {
+// What all lights of a scene have in common.
+struct Lights {
+    Random random;
+    std::vector<Box> boxes;
+    float side = 0.0f;
+    std::vector<int> materials;  // one a hue
+};
+
+Lights make_lights(GltfWriter& writer, const Random& random, int count, const std::vector<Box>& boxes) {
     const double side = 0.12 * std::sqrt(std::sqrt(1000.0 / count));
     const double area = side * side * 0.4330127018922193;
     const double radiance = TOTAL_POWER / (PI * area * count);
-    std::vector<Part> parts(std::min(count, HUE_COUNT));
-    for (int hue = 0; hue < static_cast<int>(parts.size()); ++hue) {
+    Lights lights{random, boxes, static_cast<float>(side), {}};
+    for (int hue = 0; hue < std::min(count, HUE_COUNT); ++hue) {
         MaterialSpec spec;
         spec.name = "light " + std::to_string(hue);
         spec.base_color = glm::vec3(0.0f);
         spec.specular = 0.0f;
         spec.radiance = HUES[hue] / luminance(HUES[hue]) * static_cast<float>(radiance);
-        parts[hue].material = writer.add_material(spec);
+        lights.materials.push_back(writer.add_material(spec));
     }
-    for (int i = 0; i < count; ++i) {
-        const auto index = static_cast<std::uint64_t>(i);
-        const glm::vec3 place = place_light(random, index, static_cast<float>(side), boxes);
-        append_light(parts[i % HUE_COUNT].shape, random, index, place, static_cast<float>(side));
+    return lights;
+}
+
+void append_light(Shape& shape, const Lights& lights, int light, float margin) {
+    const auto index = static_cast<std::uint64_t>(light);
+    const glm::vec3 place = place_light(lights.random, index, margin, lights.boxes);
+    append_light(shape, lights.random, index, place, lights.side);
+}
+
+// Lights from `first` on, which stand still: one mesh, one part for each hue that is used.
+void add_still_lights(GltfWriter& writer, const Lights& lights, int first, int count) {
+    std::vector<Part> parts;
+    for (const int material : lights.materials) parts.push_back({{}, material});
+    for (int i = first; i < count; ++i) append_light(parts[i % HUE_COUNT].shape, lights, i, lights.side);
+    std::erase_if(parts, [](const Part& part) { return part.shape.triangles.empty(); });
+    if (!parts.empty()) writer.add_node("lights", {}, writer.add_mesh("lights", parts));
+}
+
+// Lets a node drift round a tilted ellipse and back to where it stands.
+void drift(GltfWriter& writer, int node, const Random& random, std::uint64_t group) {
+    const glm::vec3 across = random.direction(group, 64), along = random.direction(group, 66);
+    const glm::vec3 flat(0.5f * DRIFT_M, 0.25f * DRIFT_M, 0.5f * DRIFT_M);
+    const glm::vec3 a = across * flat, b = along * flat;
+    writer.animate_translation(node, Motion::CUBIC, {0.0f, 2.0f, 4.0f, 6.0f, 8.0f},
+                               {glm::vec3(0.0f), a + b, 2.0f * a, a - b, glm::vec3(0.0f)});
+}
+
+// The first `count` lights, in groups of one hue that drift each on its own.
+void add_drifting_lights(GltfWriter& writer, const Lights& lights, int count) {
+    std::uint64_t group = 0;
+    for (int hue = 0; hue < std::min(count, HUE_COUNT); ++hue) {
+        Part part{{}, lights.materials[hue]};
+        for (int i = hue; i < count; i += HUE_COUNT) {
+            append_light(part.shape, lights, i, lights.side + DRIFT_M);
+            const bool is_full = part.shape.triangles.size() == GROUP_SIZE;
+            if (!is_full && i + HUE_COUNT < count) continue;
+            const std::string name = "drifting lights " + std::to_string(group);
+            drift(writer, writer.add_node(name, {}, writer.add_mesh(name, {part})), lights.random, group);
+            part.shape = {};
+            ++group;
+        }
     }
-    writer.add_node("lights", {}, writer.add_mesh("lights", parts));
+}
+
+int count_moving(const SceneOptions& options) {
+    if (!(options.moving_percent >= 0.0 && options.moving_percent <= 100.0)) {
+        throw Error("many_lights: moving is {} %, must be 0 to 100", options.moving_percent);
+    }
+    return static_cast<int>(std::ceil(options.count * options.moving_percent / 100.0));
 }
 
 }  // namespace
@@ -135,7 +187,10 @@ void build_many_lights(GltfWriter& writer, const SceneOptions& options) {
     Shape blocks;
     for (const Box& box : boxes) append(blocks, make_box(box.lower, box.upper));
     writer.add_node("boxes", {}, writer.add_mesh("boxes", {{blocks, writer.add_material(stone)}}));
-    add_lights(writer, random, options.count, boxes);
+    const Lights lights = make_lights(writer, random, options.count, boxes);
+    const int moving = count_moving(options);
+    add_still_lights(writer, lights, moving, options.count);
+    add_drifting_lights(writer, lights, moving);
     writer.add_camera("main", {0.0f, 5.5f, 17.5f}, {0.0f, 0.8f, 0.0f}, 55.0);
 }
 

@@ -11,7 +11,8 @@ namespace tarn::content {
 
 struct SceneOptions {
     std::uint64_t seed = 1;
-    int count = 1000;  // many_lights: how many emissive triangles, 1 to 1 000 000
+    int count = 1000;             // many_lights: how many emissive triangles, 1 to 1 000 000
+    double moving_percent = 0.0;  // many_lights: how many of them drift, in groups of up to 100
 };
 
 // Scene names, in the order in which --help lists them.
