@@ -133,11 +133,11 @@ FN float light_tree_importance(LightTreeNode node, vec3 position, vec3 normal) {
     float distance2 = dot(to_centre, to_centre);
     float radius2 = node.radius * node.radius;
     bool inside = distance2 <= radius2;
-    vec3 direction = to_centre * (1.0f / sqrt(max(distance2, LIGHT_TREE_LEAST_DISTANCE2)));
+    float inverse_distance = 1.0f / sqrt(max(distance2, LIGHT_TREE_LEAST_DISTANCE2));
+    vec3 direction = to_centre * inverse_distance;
 
     // Half the angle under which the sphere is seen.
-    float sin_sphere =
-        min(1.0f, sqrt(radius2 / max(distance2, LIGHT_TREE_LEAST_DISTANCE2)) + LIGHT_TREE_SLACK);
+    float sin_sphere = min(1.0f, node.radius * inverse_distance + LIGHT_TREE_SLACK);
     float cos_sphere = inside ? -1.0f : sine_of(sin_sphere);
     sin_sphere = inside ? 0.0f : sin_sphere;
 
