@@ -125,9 +125,13 @@ CONSTANT float LIGHT_TREE_SLACK = 1e-3f;
 CONSTANT float LIGHT_TREE_LEAST_IMPORTANCE = 1e-36f;
 CONSTANT float LIGHT_TREE_LEAST_DISTANCE2 = 1e-20f;
 
+// Lights are taken to be no nearer than half the radius of their node. (With the radius itself groups around
+// the point count too little: three times the variance at 1 000 lights, six times at 30 000, many_lights.)
+CONSTANT float LIGHT_TREE_NEAREST2 = 0.25f;
+
 // Irradiance that the node's lights may bring at most to a surface at `position` with unit `normal`, roughly:
-// distances are those to the centre, but not less than the radius. Exactly 0 only where none of the lights
-// reaches the front of the surface.
+// distances are those to the centre, but not less than half the radius. Exactly 0 only where none of the
+// lights reaches the front of the surface.
 FN float light_tree_importance(LightTreeNode node, vec3 position, vec3 normal) {
     vec3 to_centre = node.centre - position;
     float distance2 = dot(to_centre, to_centre);
@@ -155,8 +159,8 @@ FN float light_tree_importance(LightTreeNode node, vec3 position, vec3 normal) {
     float cos_surface = cos_difference(cos_centre, sine_of(cos_centre), cos_sphere, sin_sphere);
 
     bool reaches = cos_light >= node.cos_emission && cos_light > 0.0f && cos_surface > 0.0f;
-    float importance =
-        node.intensity * cos_light * cos_surface / max(max(distance2, radius2), LIGHT_TREE_LEAST_DISTANCE2);
+    float importance = node.intensity * cos_light * cos_surface /
+                       max(max(distance2, LIGHT_TREE_NEAREST2 * radius2), LIGHT_TREE_LEAST_DISTANCE2);
     return reaches ? max(importance, LIGHT_TREE_LEAST_IMPORTANCE) : 0.0f;
 }
 
