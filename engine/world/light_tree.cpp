@@ -4,6 +4,7 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 
 #include "shared/math/light_tree.h"
@@ -32,12 +33,15 @@ bool belongs_in_tree(const WorldLights& lights, std::uint32_t index) {
     return lights.powers[index] > 0.0 && !is_directional(read_light(lights, index));
 }
 
-// Packs the bounds of a node: a sphere around the box, and a cone that allows for the rounding of its axis.
+// Packs the bounds of a node: a sphere around the box, which allows for the rounding of places on the lights,
+// and a cone that allows for that of its axis.
 void write_node(LightTree& tree, std::uint32_t node, std::uint32_t link) {
     const LightBounds& bounds = tree.bounds[node];
     LightTreeNode packed;
     packed.centre = bounds.centre();
-    packed.radius = glm::length(glm::max(bounds.upper - packed.centre, packed.centre - bounds.lower));
+    const glm::vec3 farthest = glm::max(glm::abs(bounds.lower), glm::abs(bounds.upper));
+    packed.radius = glm::length(glm::max(bounds.upper - packed.centre, packed.centre - bounds.lower)) +
+                    4.0f * FLT_EPSILON * max_component(farthest);
     packed.axis = bounds.axis;
     const glm::vec3 rounded = unpack_axis(pack_axis(bounds.axis));
     const float turned_rad =
