@@ -30,7 +30,7 @@ struct HdrFlip {
 
 // The same for linear radiance, at every exposure at which a person would look at the reference: from that
 // which maps its brightest luminance to 85 % of white under the ACES approximation, to that which does so for
-// its median, in steps of at most one stop. Negative radiance counts as 0.
+// its median, about one stop apart. Negative radiance counts as 0.
 HdrFlip compute_hdr_flip(const Image& reference, const Image& image,
                          double pixels_per_degree = FLIP_PIXELS_PER_DEGREE);
 

@@ -1,5 +1,6 @@
 // FLIP against values computed apart from this code: by a direct, non-separable double-precision evaluation
-// of the papers' formulas (a Python script that sums every two-dimensional filter tap by tap).
+// of the papers' formulas (a Python script that sums every two-dimensional filter tap by tap). The constants
+// and steps of the authors' published implementation, evaluated in numpy, give the same values within 2e-5.
 #include "metrics/flip.h"
 
 #include <gtest/gtest.h>
