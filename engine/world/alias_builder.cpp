@@ -34,6 +34,8 @@ AliasTable pack_table(std::vector<double> threshold, const std::vector<std::uint
         pmf[alias[i]] += (1.0 - threshold[i]) / double(count);
     }
     AliasTable table;
+    table.rows.reserve(count);
+    table.pmf.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
         AliasBucket bucket;
         bucket.threshold = float(threshold[i]);

@@ -3,6 +3,7 @@
 #include "world/light_tree.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -482,7 +483,9 @@ TEST(LightTree, EachNodeHoldsAllThatIsBelowIt) {
 }
 
 TEST(LightTree, TheTreeDoesNotDependOnThreads) {
-    EXPECT_EQ(build_random_world(12, 6000).light_tree.rows, build_random_world(12, 6000).light_tree.rows);
+    const World all = build_random_world(12, 6000);
+    const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+    EXPECT_EQ(build_random_world(12, 6000).light_tree.rows, all.light_tree.rows);
 }
 
 // Moves some nodes of the scene, which is then edited.
