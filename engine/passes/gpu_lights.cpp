@@ -65,7 +65,8 @@ void GpuLights::update(const WorldLights& lights) {
     if (lights.revision == revision_) return;
     have_changed_ = true;
     differs_ = true;
-    if (lights.structure_revision == structure_revision_) {
+    // `first_changed` is about the latest update alone: after two of them all rows are uploaded.
+    if (lights.structure_revision == structure_revision_ && lights.revision == revision_ + 1) {
         // Rows moved, no light came or went: their range alone.
         const std::size_t first = std::size_t(lights.first_changed) * LIGHT_ROWS;
         const std::size_t last = std::size_t(lights.last_changed) * LIGHT_ROWS;

@@ -9,6 +9,7 @@
 #include "rays/flush_denormals.h"
 #include "rays/ray_checks.h"
 #include "rays/ray_tracer.h"
+#include "shared/math/light.h"
 
 namespace tarn {
 namespace {
@@ -23,10 +24,11 @@ bool RayTracer::is_visible(const RayRecord& ray, const CoverageKey& key) const {
     return state == RayState::TRACEABLE ? is_unoccluded(ray, key) : state == RayState::INACTIVE;
 }
 
-RayBatchResult RayTracer::trace_visibility(std::span<const glm::uvec4> ray_rows, std::span<float> visibility,
-                                           const CoverageKey& key) const {
-    TARN_ASSERT(ray_rows.size() == visibility.size() * RAY_ROWS, "{} ray rows for {} answers",
-                ray_rows.size(), visibility.size());
+namespace {
+
+// Runs `answer(ray, state, index)` for each ray, on all workers.
+template <class Answer>
+RayBatchResult for_each_ray(std::span<const glm::uvec4> ray_rows, const Answer& answer) {
     std::atomic<std::uint64_t> traced{0}, rejected{0};
     const auto trace_range = [&](const tbb::blocked_range<std::size_t>& range) {
         const FlushDenormals flush;
@@ -36,15 +38,54 @@ RayBatchResult RayTracer::trace_visibility(std::span<const glm::uvec4> ray_rows,
             const RayState state = classify_ray(ray);
             local.traced += state == RayState::TRACEABLE;
             local.rejected += state == RayState::REJECTED;
-            const bool visible =
-                state == RayState::TRACEABLE ? is_unoccluded(ray, key) : state == RayState::INACTIVE;
-            visibility[i] = visible ? 1.0f : 0.0f;
+            answer(ray, state, i);
         }
         traced += local.traced;
         rejected += local.rejected;
     };
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, visibility.size(), RAYS_PER_TASK), trace_range);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ray_rows.size() / RAY_ROWS, RAYS_PER_TASK),
+                      trace_range);
     return {traced, rejected};
+}
+
+// The light sample at a hit; INVALID_INDEX where nothing emits.
+glm::uvec4 light_sample_row(const WorldLights& lights, const Hit& hit) {
+    const std::uint32_t first = lights.instance_first[hit.instance];
+    const std::uint32_t light =
+        first == INVALID_INDEX ? INVALID_INDEX : lights.light_of_primitive[first + hit.primitive];
+    return {light, floatBitsToUint(hit.barycentrics.x), floatBitsToUint(hit.barycentrics.y), 0u};
+}
+
+glm::uvec4 sky_sample_row(const World& world, const glm::vec3& direction) {
+    if (world.environment.width == 0) return glm::uvec4(INVALID_INDEX, 0u, 0u, 0u);
+    const glm::vec2 uv = encode_octahedral(direction);
+    return {LIGHT_ENVIRONMENT, floatBitsToUint(uv.x), floatBitsToUint(uv.y), 0u};
+}
+
+}  // namespace
+
+RayBatchResult RayTracer::trace_visibility(std::span<const glm::uvec4> ray_rows, std::span<float> visibility,
+                                           const CoverageKey& key) const {
+    TARN_ASSERT(ray_rows.size() == visibility.size() * RAY_ROWS, "{} ray rows for {} answers",
+                ray_rows.size(), visibility.size());
+    return for_each_ray(ray_rows, [&](const RayRecord& ray, RayState state, std::size_t i) {
+        const bool visible =
+            state == RayState::TRACEABLE ? is_unoccluded(ray, key) : state == RayState::INACTIVE;
+        visibility[i] = visible ? 1.0f : 0.0f;
+    });
+}
+
+RayBatchResult RayTracer::trace_lights(std::span<const glm::uvec4> ray_rows,
+                                       std::span<glm::uvec4> sample_rows, const World& world,
+                                       const CoverageKey& key) const {
+    TARN_ASSERT(ray_rows.size() == sample_rows.size() * RAY_ROWS, "{} ray rows for {} samples",
+                ray_rows.size(), sample_rows.size());
+    return for_each_ray(ray_rows, [&](const RayRecord& ray, RayState state, std::size_t i) {
+        sample_rows[i] = glm::uvec4(INVALID_INDEX, 0u, 0u, 0u);
+        if (state != RayState::TRACEABLE) return;
+        const auto hit = trace_closest(ray, key);
+        sample_rows[i] = hit ? light_sample_row(world.lights, *hit) : sky_sample_row(world, ray.direction);
+    });
 }
 
 }  // namespace tarn

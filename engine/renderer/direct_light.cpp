@@ -1,5 +1,7 @@
 #include "renderer/direct_light.h"
 
+#include <utility>
+
 #include "shared/math/reservoir.h"
 
 namespace tarn {
@@ -36,24 +38,40 @@ DirectLight::DirectLight(ProgramLibrary& programs, int width_px, int height_px)
       shade_(programs, width_px, height_px),
       programs_(programs) {}
 
-const Texture2D& DirectLight::record(DirectFrame direct) {
+const Texture2D& DirectLight::record(DirectFrame direct, const World& world, const RowBuffer* light_tree) {
     const std::vector<glm::vec3> targets = targets_of(direct.settings);
-    const RowBuffer* tiles = nullptr;
-    if (direct.settings.selection() == LightSelection::TILES) {
-        if (!light_tiles_) light_tiles_ = std::make_unique<LightTilesPass>(programs_);
-        tiles = &light_tiles_->record(direct);
-    }
+    const CandidateSources sources = find_sources(direct, world, light_tree);
     while (lanes_.size() < targets.size()) lanes_.emplace_back(width_px_, height_px_);
     for (std::size_t lane = 0; lane < targets.size(); ++lane) {
         direct.target_weights = targets[lane];
-        record_lane(direct, lane, tiles);
+        record_lane(direct, lane, sources);
     }
     return shade_.radiance();
 }
 
-void DirectLight::record_lane(const DirectFrame& direct, std::size_t lane, const RowBuffer* tiles) {
+CandidateSources DirectLight::find_sources(const DirectFrame& direct, const World& world,
+                                           const RowBuffer* light_tree) {
     const DirectSettings& settings = direct.settings;
-    const Candidates fresh = candidates_.record(direct, tiles);
+    CandidateSources sources;
+    if (settings.selection() == LightSelection::TILES) {
+        if (!light_tiles_) light_tiles_ = std::make_unique<LightTilesPass>(programs_);
+        sources.tiles = &light_tiles_->record(direct);
+    }
+    if (settings.selection() == LightSelection::TREE) sources.tree = light_tree;
+    if (settings.resamples() && settings.brdf_candidate) {
+        if (!brdf_candidates_) {
+            brdf_candidates_ = std::make_unique<BrdfCandidatesPass>(programs_, width_px_, height_px_);
+        }
+        sources.brdf_samples = &brdf_candidates_->record(direct, world);
+        rays_.closest += brdf_candidates_->result().traced;
+        rays_.shadow.rejected += brdf_candidates_->result().rejected;
+    }
+    return sources;
+}
+
+void DirectLight::record_lane(const DirectFrame& direct, std::size_t lane, const CandidateSources& sources) {
+    const DirectSettings& settings = direct.settings;
+    const Candidates fresh = candidates_.record(direct, sources);
     if (settings.tests_fresh_samples()) {
         const RowBuffer& seen = trace(direct, "direct/initial_rays", fresh.rays);
         initial_visibility_.record(direct, fresh, seen);
@@ -90,8 +108,8 @@ const RowBuffer& DirectLight::trace(const DirectFrame& direct, const std::string
     const std::size_t count = std::size_t(width_px_) * std::size_t(height_px_);
     const RowBuffer& answers =
         visibility_.record(direct.frame, name, direct.tracer, rays, count, direct.shadow_key);
-    result_.traced += visibility_.result().traced;
-    result_.rejected += visibility_.result().rejected;
+    rays_.shadow.traced += visibility_.result().traced;
+    rays_.shadow.rejected += visibility_.result().rejected;
     return answers;
 }
 
@@ -99,12 +117,12 @@ void DirectLight::advance() {
     for (Lane& lane : lanes_) lane.reservoirs.advance();
 }
 
-RayBatchResult DirectLight::take_result() {
-    RayBatchResult result = reuse_step_.take_result();
-    result.traced += result_.traced;
-    result.rejected += result_.rejected;
-    result_ = {};
-    return result;
+DirectLight::Rays DirectLight::take_rays() {
+    Rays rays = std::exchange(rays_, {});
+    const RayBatchResult reuse = reuse_step_.take_result();
+    rays.shadow.traced += reuse.traced;
+    rays.shadow.rejected += reuse.rejected;
+    return rays;
 }
 
 }  // namespace tarn

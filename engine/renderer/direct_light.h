@@ -3,8 +3,10 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
+#include "passes/direct/brdf_candidates.h"
 #include "passes/direct/candidates.h"
 #include "passes/direct/light_tiles.h"
 #include "passes/direct/shade.h"
@@ -20,13 +22,18 @@ class DirectLight {
 
     // RGBA32F: emission and direct light, W sr^-1 m^-2. `direct.target_weights` is set here, channel by
     // channel where the settings ask for that.
-    const Texture2D& record(DirectFrame direct);
+    // `light_tree`: its rows, where the settings draw from it.
+    const Texture2D& record(DirectFrame direct, const World& world, const RowBuffer* light_tree);
 
     // Ends a frame: its reservoirs become the last frame's.
     void advance();
 
-    // Shadow rays since the last call.
-    RayBatchResult take_result();
+    // Rays since the last call, rejected ones of both kinds together.
+    struct Rays {
+        RayBatchResult shadow;
+        std::uint64_t closest = 0;
+    };
+    Rays take_rays();
 
   private:
     // What one target keeps from frame to frame.
@@ -35,7 +42,8 @@ class DirectLight {
         History<RowBuffer> reservoirs;
     };
 
-    void record_lane(const DirectFrame& direct, std::size_t lane, const RowBuffer* tiles);
+    void record_lane(const DirectFrame& direct, std::size_t lane, const CandidateSources& sources);
+    CandidateSources find_sources(const DirectFrame& direct, const World& world, const RowBuffer* light_tree);
     const RowBuffer& reuse(const DirectFrame& direct, Lane& lane, const Candidates& fresh);
     const RowBuffer& trace(const DirectFrame& direct, const std::string& name, const Buffer& rays);
 
@@ -45,14 +53,15 @@ class DirectLight {
     std::array<RowBuffer, 2> scratch_;  // between the steps of reuse
     DirectCandidatesPass candidates_;
     InitialVisibilityPass initial_visibility_;
-    std::unique_ptr<LightTilesPass> light_tiles_;  // once asked for
+    std::unique_ptr<LightTilesPass> light_tiles_;  // these two once they are asked for
+    std::unique_ptr<BrdfCandidatesPass> brdf_candidates_;
     ReuseStep reuse_step_;
     TemporalPass temporal_;
     SpatialPass spatial_;
     VisibilityPass visibility_;
     DirectShadePass shade_;
     ProgramLibrary& programs_;
-    RayBatchResult result_;
+    Rays rays_;
 };
 
 }  // namespace tarn

@@ -29,7 +29,7 @@ float depth_parameter(const World& world, const CameraRecord& camera) {
 
 }  // namespace
 
-Renderer::Renderer(const World& world, const RayTracer& tracer, int width_px, int height_px,
+Renderer::Renderer(World& world, const RayTracer& tracer, int width_px, int height_px,
                    std::vector<std::string> extra_defines)
     : world_(world),
       tracer_(tracer),
@@ -64,6 +64,12 @@ void Renderer::update_plan() {
     defines_ = join(plan_.defines(), extra_defines_);
 }
 
+void Renderer::update_light_tree_for(const RenderSettings& settings) {
+    if (settings.selection() != LightSelection::TREE) return;
+    frame_.pass("lights/tree").run_on_cpu([&] { update_light_tree(world_); });
+    gpu_light_tree_.update(world_.light_tree);
+}
+
 void Renderer::upload_frame_block(const FrameInput& input) {
     const CameraRecord& camera = input.camera;
     FrameBlock block;
@@ -82,7 +88,7 @@ void Renderer::upload_frame_block(const FrameInput& input) {
     block.frame_history =
         glm::uvec4(gpu_scene_.previous_first_instance(), gpu_scene_.lights().previous_first_row(),
                    gpu_scene_.lights().remap_first_row(), follows ? 1u : 0u);
-    block.frame_tables = glm::uvec4(0u);
+    block.frame_tables = glm::uvec4(gpu_light_tree_.node_count(), 0u, 0u, 0u);
     frame_block_.upload(0, std::span<const FrameBlock>(&block, 1));
     frame_block_.bind_uniform(BLOCK_FRAME);
 }
@@ -91,18 +97,20 @@ FrameOutput Renderer::render(const FrameInput& input) {
     const CoverageKey shadow_key{input.frame, input.seed, RAY_SHADOW};
 
     frame_.begin();
+    update_light_tree_for(input.settings);
     upload_frame_block(input);
     gpu_scene_.bind();
 
     const GBuffer gbuffer = gbuffer_.record(frame_, world_, input.camera, defines_);
     const Texture2D& radiance = direct_light_.record(
-        {frame_, tracer_, gbuffer, input.settings, glm::vec3(0.0f), counters_, defines_, shadow_key});
+        {frame_, tracer_, gbuffer, input.settings, glm::vec3(0.0f), counters_, defines_, shadow_key}, world_,
+        gpu_light_tree_.rows());
 
-    const RayBatchResult rays = direct_light_.take_result();
-    rejected_rays_ += rays.rejected;
+    const DirectLight::Rays rays = direct_light_.take_rays();
+    rejected_rays_ += rays.shadow.rejected;
     const FrameTimings timings = frame_.end();
     advance(input);
-    return {radiance, gbuffer, timings, rays, gbuffer_.statistics()};
+    return {radiance, gbuffer, timings, rays.shadow, rays.closest, gbuffer_.statistics()};
 }
 
 // What this frame saw becomes the past.

@@ -11,6 +11,7 @@
 #include "frame/frame_recorder.h"
 #include "gl/program_library.h"
 #include "passes/gbuffer.h"
+#include "passes/gpu_light_tree.h"
 #include "passes/gpu_scene.h"
 #include "plan/frame_plan.h"
 #include "rays/ray_tracer.h"
@@ -31,15 +32,17 @@ struct FrameOutput {
     GBuffer gbuffer;
     FrameTimings timings;
     RayBatchResult shadow_rays;
+    std::uint64_t closest_rays = 0;
     GBufferStatistics raster;
 };
 
 // Needs a current GL context. Same world, camera, frame, seed and settings give the same bits.
 class Renderer {
   public:
-    // Throws Error when the world does not fit the driver's limits. `world` and `tracer` must outlive the
+    // Throws Error when the world does not fit the driver's limits. Keeps the world's light tree up to date
+    // where settings draw from it, and writes nothing else of it. `world` and `tracer` must outlive the
     // renderer. `extra_defines` reach every shader: tests plant mistakes with them (TARN_PLANT_*).
-    Renderer(const World& world, const RayTracer& tracer, int width_px, int height_px,
+    Renderer(World& world, const RayTracer& tracer, int width_px, int height_px,
              std::vector<std::string> extra_defines = {});
 
     // Uploads what moved; call after update_world and the tracer's update.
@@ -66,10 +69,11 @@ class Renderer {
 
   private:
     void update_plan();
+    void update_light_tree_for(const RenderSettings& settings);
     void upload_frame_block(const FrameInput& input);
     void advance(const FrameInput& input);
 
-    const World& world_;
+    World& world_;
     const RayTracer& tracer_;
     int width_px_;
     int height_px_;
@@ -80,6 +84,7 @@ class Renderer {
     std::uint64_t planned_lights_;  // revision of the lights that the plan saw
     ProgramLibrary programs_;
     GpuScene gpu_scene_;
+    GpuLightTree gpu_light_tree_;
     FrameRecorder frame_;
     Buffer frame_block_;
     Buffer counters_;

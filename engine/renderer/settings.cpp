@@ -91,6 +91,9 @@ const std::vector<Setting>& setting_table() {
                &S::light_selection, {"uniform", "power", "tiles", "tree"}),
         number("candidates", "", "Light candidates a pixel that ris and restir choose from", &S::candidates,
                1, 1024),
+        toggle("brdf-candidate",
+               "One candidate more from a ray along the BRDF, joined by MIS: for mirrors and glossy floors",
+               &S::brdf_candidate),
         choose("reuse", "restir: whose samples are reused", &S::reuse,
                {"none", "temporal", "spatial", "spatiotemporal"}),
         number("spatial-iterations", "", "restir: steps of reuse over neighbours", &S::spatial_iterations, 1,
@@ -145,6 +148,7 @@ RenderSettings balanced_settings() {
     s.direct = DirectMode::RESTIR;
     s.light_selection = LightSelection::TILES;
     s.candidates = 16;
+    s.brdf_candidate = true;
     s.neighbours = 3;
     s.mis = Mis::PAIRWISE;
     s.age_cap = 30;

@@ -28,7 +28,7 @@ class RasterAgainstRays : public testing::Test {
     static void SetUpTestSuite() { context_ = create_context({}); }
     static void TearDownTestSuite() { context_.reset(); }
 
-    Agreement compare(const TestScene& scene, const CameraRecord& camera) {
+    Agreement compare(TestScene& scene, const CameraRecord& camera) {
         Renderer renderer(scene.world, *scene.tracer, WIDTH_PX, HEIGHT_PX);
         FrameInput input;
         input.camera = camera;
@@ -112,7 +112,7 @@ TEST_P(WorldOffset, TheCornellBoxHasNoAcneAndNoLeaks) {
         load_test_scene(content_file("cornell"), glm::dvec3(offset_m, -0.5 * offset_m, offset_m));
     const auto at_origin = load_test_scene(content_file("cornell"));
     const double aspect = double(WIDTH_PX) / HEIGHT_PX;
-    const auto render = [&](const TestScene& s) {
+    const auto render = [&](TestScene& s) {
         Renderer renderer(s.world, *s.tracer, WIDTH_PX, HEIGHT_PX);
         FrameInput input;
         input.camera = first_camera(s, aspect);

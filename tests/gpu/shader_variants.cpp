@@ -81,7 +81,10 @@ std::vector<Defines> list_reuse_modes() {
 // Variants of one pass besides what the scene has.
 std::vector<Defines> list_own_variants(const std::string& pass) {
     if (pass == "direct/candidates")
-        return {{"TARN_SELECT_UNIFORM"}, {"TARN_SELECT_POWER"}, {"TARN_SELECT_TILES"}};
+        return {{"TARN_SELECT_UNIFORM"},
+                {"TARN_SELECT_POWER"},
+                {"TARN_SELECT_TILES", "TARN_BRDF_CANDIDATE"},
+                {"TARN_SELECT_TREE"}};
     if (pass == "direct/shade") return {{}, {"TARN_RESERVOIR_VISIBILITY", "TARN_ONE_CHANNEL", "TARN_ADD"}};
     if (is_reuse(pass)) return {{"TARN_MIS=2", "TARN_MIS_VISIBILITY=1", "TARN_SAMPLE_VISIBILITY=0"}};
     if (pass == "gbuffer/raster") return {{}, {"TARN_COVERAGE"}};
@@ -122,10 +125,10 @@ TEST_P(ShaderVariants, AllCompile) {
     }
     EXPECT_EQ(programs_.program_count(), list_own_variants(GetParam()).size() * list_scene_variants().size());
     // What tests plant must compile too, or they would find the wrong fault.
-    for (const char* bug :
-         {"TARN_PLANT_DROP_PDF", "TARN_PLANT_DROP_COSINE", "TARN_PLANT_SHIFT_LIGHT",
-          "TARN_PLANT_SKIP_CONFIDENCE", "TARN_PLANT_COUNT_DEAD", "TARN_PLANT_TARGET_AT_NEIGHBOUR",
-          "TARN_PLANT_DROP_NORMALIZATION", "TARN_PLANT_PREVIOUS_NORMAL", "TARN_CHECK_MIS"}) {
+    for (const char* bug : {"TARN_PLANT_DROP_PDF", "TARN_PLANT_DROP_COSINE", "TARN_PLANT_SHIFT_LIGHT",
+                            "TARN_PLANT_SKIP_CONFIDENCE", "TARN_PLANT_COUNT_DEAD",
+                            "TARN_PLANT_TARGET_AT_NEIGHBOUR", "TARN_PLANT_DROP_NORMALIZATION",
+                            "TARN_PLANT_PREVIOUS_NORMAL", "TARN_PLANT_FORGET_LIGHT_PDF", "TARN_CHECK_MIS"}) {
         compile(Defines{"TARN_TRIANGLE_LIGHTS", bug} + list_own_variants(GetParam()).front());
     }
 }

@@ -105,7 +105,7 @@ Json bench_scene(const BenchCommand& command, const BenchPlan& plan, const std::
     options.scene.scene = scene;
     RenderSession session(options);
     machine = session.describe_machine();
-    const World& world = session.loaded().world;
+    World& world = session.loaded().world;
     const CameraRecord camera = choose_camera(options.scene, session.loaded().scene, world);
     const ReferenceSettings reference = reference_settings(command, camera);
 

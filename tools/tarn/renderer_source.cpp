@@ -2,7 +2,7 @@
 
 namespace tarn {
 
-RendererSource::RendererSource(const World& world, const RayTracer& tracer, int width_px, int height_px,
+RendererSource::RendererSource(World& world, const RayTracer& tracer, int width_px, int height_px,
                                std::size_t method_count) {
     for (std::size_t i = 0; i < method_count; ++i) {
         renderers_.push_back(std::make_unique<Renderer>(world, tracer, width_px, height_px));

@@ -13,7 +13,7 @@ namespace tarn {
 class RendererSource : public FrameSource {
   public:
     // `world` and `tracer` must outlive it; needs a current GL context.
-    RendererSource(const World& world, const RayTracer& tracer, int width_px, int height_px,
+    RendererSource(World& world, const RayTracer& tracer, int width_px, int height_px,
                    std::size_t method_count);
 
     // What the next frames look at.

@@ -121,6 +121,7 @@ void RunTotals::add(const FrameOutput& output) {
     if (frames == 1) timings = TimingLog();
     timings.add(output.timings);
     shadow_rays += output.shadow_rays.traced;
+    closest_rays += output.closest_rays;
     ++frames;
 }
 
@@ -136,8 +137,7 @@ nlohmann::json make_report(const RenderOptions& options, RenderSession& session,
     const double p50 = totals.timings.frame_quantile_ms(0.5), p95 = totals.timings.frame_quantile_ms(0.95);
     return {{"frame_ms", {{"median", p50}, {"p95", p95}, {"frames", totals.timings.frame_count()}}},
             {"passes", passes},
-            // The renderer finds surfaces by rasterizing: it traces no closest hits.
-            {"rays", {{"shadow", totals.shadow_rays}, {"closest", 0}}},
+            {"rays", {{"shadow", totals.shadow_rays}, {"closest", totals.closest_rays}}},
             {"counters", session.renderer().read_counters()},
             {"machine", session.describe_machine()},
             {"settings", describe_settings(options, session.renderer())},

@@ -34,6 +34,7 @@ class RenderSession {
     Renderer& renderer() { return *renderer_; }
     const RayTracer& tracer() const { return *tracer_; }
     const LoadedScene& loaded() const { return loaded_; }
+    LoadedScene& loaded() { return loaded_; }
     const Context& context() const { return *context_; }
 
     // What the machine is: CPU, threads, driver, Embree.
@@ -52,6 +53,7 @@ class RenderSession {
 struct RunTotals {
     TimingLog timings;
     std::uint64_t shadow_rays = 0;
+    std::uint64_t closest_rays = 0;
     int frames = 0;
 
     // Counts a frame. The first one's time holds the compilation of shaders: it goes once there is a second.

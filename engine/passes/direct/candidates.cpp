@@ -30,14 +30,18 @@ DirectCandidatesPass::DirectCandidatesPass(ProgramLibrary& programs, int width_p
       reservoirs_(make_pixel_rows("direct/fresh", width_px, height_px, RESERVOIR_ROWS, BufferUse::DEVICE)),
       rays_(make_pixel_rows("direct/fresh_rays", width_px, height_px, RAY_ROWS, BufferUse::SHARED)) {}
 
-Candidates DirectCandidatesPass::record(const DirectFrame& direct, const RowBuffer* tiles) {
+Candidates DirectCandidatesPass::record(const DirectFrame& direct, const CandidateSources& sources) {
     std::vector<std::string> defines = direct.defines;
     defines.emplace_back(selection_define(direct.settings.selection()));
+    if (sources.brdf_samples != nullptr) defines.emplace_back("TARN_BRDF_CANDIDATE");
     const Program& program = programs_.compute("direct/candidates", defines);
     program.set("candidate_count", unsigned(direct.settings.resamples() ? direct.settings.candidates : 1));
     program.set("target_weights", direct.target_weights);
     PassRecorder pass = direct.frame.pass("direct/candidates");
-    if (tiles != nullptr) pass.read(UNIT_PASS_A, *tiles);
+    if (sources.tiles != nullptr) pass.read(UNIT_PASS_A, *sources.tiles);
+    if (sources.brdf_samples != nullptr) pass.read(UNIT_PASS_B, *sources.brdf_samples);
+    // Uploaded by the CPU, as the scene's other tables.
+    if (sources.tree != nullptr) sources.tree->texture().bind(UNIT_PASS_C);
     read_gbuffer(pass, direct.gbuffer)
         .write(0, reservoirs_)
         .write(1, rays_)

@@ -10,12 +10,18 @@ struct Candidates {
     const Buffer& rays;           // RAY_ROWS rows a pixel, shared with the CPU
 };
 
+// Where candidates come from besides the light tables; null where the settings do not ask for them.
+struct CandidateSources {
+    const RowBuffer* tiles = nullptr;
+    const RowBuffer* tree = nullptr;
+    const RowBuffer* brdf_samples = nullptr;
+};
+
 class DirectCandidatesPass {
   public:
     DirectCandidatesPass(ProgramLibrary& programs, int width_px, int height_px);
 
-    // `tiles`: set where the settings select lights from tiles.
-    Candidates record(const DirectFrame& direct, const RowBuffer* tiles);
+    Candidates record(const DirectFrame& direct, const CandidateSources& sources);
 
   private:
     ProgramLibrary& programs_;

@@ -26,6 +26,7 @@ struct DirectSettings {
     DirectMode direct = DirectMode::RIS;
     LightSelection light_selection = LightSelection::POWER;
     int candidates = 32;
+    bool brdf_candidate = false;
     Reuse reuse = Reuse::SPATIOTEMPORAL;
     int spatial_iterations = 1;
     int neighbours = 3;

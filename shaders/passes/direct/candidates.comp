@@ -15,6 +15,13 @@
 #ifdef TARN_SELECT_TILES
 #include "lib/light_tiles.glsl"
 #endif
+#ifdef TARN_SELECT_TREE
+#include "lib/light_tree.glsl"
+#endif
+
+#ifdef TARN_BRDF_CANDIDATE
+layout(binding = UNIT_PASS_B) uniform usamplerBuffer brdf_samples;
+#endif
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -41,13 +48,27 @@ struct Stream {
     LiveReservoir live;
 };
 
-// Offers candidate `i`, drawn with `c.pdf`, which sends `incident`: resampling weight target / (pdf * count).
+// Density of a sample under the BRDF, in the measure of its light; 0 for lights that no ray can meet.
+float brdf_pdf(Stream s, LightSample drawn, IncidentLight incident) {
+#ifdef TARN_BRDF_CANDIDATE
+    float pdf = pdf_brdf_solid_angle(s.receiver.point.material, s.receiver.view_local,
+                                     to_local(s.receiver.frame, incident.direction));
+    if (incident.distance >= RAY_INFINITY) return drawn.light == LIGHT_ENVIRONMENT ? pdf : 0.0f;
+    return pdf * max(dot(incident.light_normal, -incident.direction), 0.0f) / (incident.distance * incident.distance);
+#else
+    return 0.0f;
+#endif
+}
+
+// Offers candidate `i`, drawn with `c.pdf`, which sends `incident`. All ways to draw a sample share it by
+// the balance heuristic: resampling weight target / (count * pdf + pdf of the BRDF's candidate).
 void offer_incident(inout Stream s, LightCandidate c, IncidentLight incident, uint i) {
 #ifdef TARN_PLANT_DROP_PDF
     c.pdf = 1.0f;
 #endif
     float target = target_at(s.receiver, incident);
-    float weight = target == 0.0f ? 0.0f : target / (c.pdf * float(candidate_count));
+    float density = c.pdf * float(candidate_count) + brdf_pdf(s, c.drawn, incident);
+    float weight = target == 0.0f ? 0.0f : target / density;
     float u = random4(s.key, DIMENSION_CHOICE + i).x;
     if (!offer_candidate(s.live, c.drawn, target, weight, u)) count_event(COUNTER_BAD_WEIGHT);
 }
@@ -59,6 +80,26 @@ void offer(inout Stream s, LightCandidate c, uint i) {
     }
 #endif
     offer_incident(s, c, load_incident_light(c.drawn, s.receiver.point.position), i);
+}
+
+// Density with which the chosen way of selection draws `drawn`, sky and lights shared out, in the light's measure.
+float selection_pdf(Stream s, LightSample drawn, IncidentLight incident) {
+    if (drawn.light == LIGHT_ENVIRONMENT) {
+#ifdef TARN_SELECT_UNIFORM
+        return environment_pdf_solid_angle(incident.direction) / float(get_light_count() + 1u);
+#else
+        return environment_pdf_solid_angle(incident.direction) * environment_probability();
+#endif
+    }
+#if defined(TARN_SELECT_UNIFORM)
+    float pmf = 1.0f / float(get_light_count() + (has_environment() ? 1u : 0u));
+#elif defined(TARN_SELECT_TREE)
+    float pmf = light_tree_pmf(drawn.light, s.receiver.point.position, s.receiver.point.shading_normal) *
+                (1.0f - environment_probability());
+#else
+    float pmf = unpack_alias_bucket(fetch_light_alias_row(drawn.light)).pmf_own * (1.0f - environment_probability());
+#endif
+    return ratio_or_zero(pmf, triangle_area(load_light(drawn.light)));
 }
 
 #ifdef TARN_SELECT_UNIFORM
@@ -87,7 +128,7 @@ void offer_light(inout Stream s, uint i, float share) {
     c.pdf *= share;
     offer_incident(s, c, incident_from_light(light, c.drawn.uv, s.receiver.point.position), i);
 #elif defined(TARN_SELECT_TREE)
-    LightCandidate c = draw_light_by_tree(bits, s.receiver.point.position, s.receiver.point.geometric_normal);
+    LightCandidate c = draw_light_by_tree(bits, s.receiver.point.position, s.receiver.point.shading_normal);
     c.pdf *= share;
     if (c.pdf > 0.0f) offer(s, c, i);
 #else
@@ -113,6 +154,23 @@ void offer_all(inout Stream s) {
 }
 #endif
 
+#ifdef TARN_BRDF_CANDIDATE
+// The sample that the ray along the BRDF's direction met, one candidate more.
+void offer_brdf_candidate(inout Stream s) {
+    uvec4 row = texelFetch(brdf_samples, int(pixel_index(s.pixel)));
+    if (row.x == INVALID_INDEX) return;
+    LightCandidate c;
+    c.drawn.light = row.x;
+    c.drawn.uv = vec2(uintBitsToFloat(row.y), uintBitsToFloat(row.z));
+    IncidentLight incident = load_incident_light(c.drawn, s.receiver.point.position);
+    c.pdf = selection_pdf(s, c.drawn, incident);
+#ifdef TARN_PLANT_FORGET_LIGHT_PDF
+    c.pdf = 0.0f;
+#endif
+    offer_incident(s, c, incident, candidate_count);
+}
+#endif
+
 void main() {
     Stream s;
     s.pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -124,7 +182,12 @@ void main() {
     s.key = pixel_key(s.pixel);
     s.live = empty_live_reservoir();
     offer_all(s);
-    Reservoir reservoir = finish_reservoir(s.live, float(candidate_count));
+    float confidence = float(candidate_count);
+#ifdef TARN_BRDF_CANDIDATE
+    offer_brdf_candidate(s);
+    confidence += 1.0f;
+#endif
+    Reservoir reservoir = finish_reservoir(s.live, confidence);
     if (s.live.weight_sum > 0.0f && reservoir.contribution_weight == 0.0f) count_event(COUNTER_BAD_RESERVOIR);
     RayRecord ray = inactive_ray();
     if (reservoir.contribution_weight > 0.0f) ray = sample_ray(s.receiver, reservoir.chosen, s.pixel);

@@ -106,11 +106,12 @@ float technique_target(Gathering g, uint t, LightSample drawn) {
 
 // ---- Balance: every technique looks at every sample.
 
-float balance_sum(Gathering g, uint owner, LightSample drawn) {
-    float sum = 0.0f;
+// Over all techniques, for the sample `r` of technique `owner`, whose own target is the one that it was made with.
+float balance_sum(Gathering g, uint owner, Reservoir r) {
+    float sum = balance_term(technique_confidence(g, owner), r.target);
     for (uint t = 0u; t <= neighbour_count; ++t) {
-        if (!has_joined(g, t)) continue;
-        sum += balance_term(technique_confidence(g, t), technique_target(g, t, drawn) * answer(g, owner, t));
+        if (t == owner || !has_joined(g, t)) continue;
+        sum += balance_term(technique_confidence(g, t), technique_target(g, t, r.chosen) * answer(g, owner, t));
     }
     return sum;
 }
@@ -141,7 +142,7 @@ float technique_weight(Gathering g, uint t, Reservoir r, float target_here) {
 #ifdef TARN_PLANT_DROP_NORMALIZATION
     return MIS == MIS_CONSTANT || MIS == MIS_COUNT ? confidence : 1.0f;
 #endif
-    if (MIS == MIS_BALANCE) return bounded_ratio(balance_term(confidence, r.target), balance_sum(g, t, r.chosen));
+    if (MIS == MIS_BALANCE) return bounded_ratio(balance_term(confidence, r.target), balance_sum(g, t, r));
     if (MIS == MIS_PAIRWISE) {
         if (t == 0u) return pairwise_canonical_weight(g);
         return pairwise_neighbour_weight(pairwise_step(g), confidence, r.target, target_here);
@@ -211,7 +212,8 @@ void check_weights(Gathering g) {
             if (!has_joined(g, t)) continue;
             float target = t == owner ? r.target : technique_target(g, t, r.chosen);
             if (MIS == MIS_BALANCE) {
-                sum += bounded_ratio(balance_term(technique_confidence(g, t), target), balance_sum(g, owner, r.chosen));
+                target *= answer(g, owner, t);
+                sum += bounded_ratio(balance_term(technique_confidence(g, t), target), balance_sum(g, owner, r));
             } else if (t > 0u) {
                 PairwiseStep step = pairwise_step(g);
                 sum += pairwise_neighbour_weight(step, technique_confidence(g, t), target, here) +

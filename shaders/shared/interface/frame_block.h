@@ -24,7 +24,7 @@ struct FrameBlock {
     uvec4 frame_history;  // first previous instance; first row of the previous lights; first row of the light
                           // remap or INVALID_INDEX where every light kept its index; 1 where there is a last
                           // frame
-    uvec4 frame_tables;   // first row of the light tree, its node count
+    uvec4 frame_tables;   // nodes of the light tree
 };
 
 // Places in the counter buffer; names in Renderer::read_counters.

@@ -1,0 +1,31 @@
+#include "passes/direct/brdf_candidates.h"
+
+#include "shared/interface/bindings.h"
+#include "shared/interface/records.h"
+
+namespace tarn {
+
+BrdfCandidatesPass::BrdfCandidatesPass(ProgramLibrary& programs, int width_px, int height_px)
+    : programs_(programs),
+      width_px_(width_px),
+      height_px_(height_px),
+      rays_(make_pixel_rows("direct/brdf_rays", width_px, height_px, RAY_ROWS, BufferUse::SHARED)),
+      samples_(make_pixel_rows("direct/brdf_samples", width_px, height_px, 1, BufferUse::SHARED)) {}
+
+const RowBuffer& BrdfCandidatesPass::record(const DirectFrame& direct, const World& world) {
+    PassRecorder pass = direct.frame.pass("direct/brdf_rays");
+    read_gbuffer(pass, direct.gbuffer)
+        .write(0, rays_)
+        .dispatch(programs_.compute("direct/brdf_rays", direct.defines), width_px_, height_px_);
+    direct.frame.pass("direct/brdf_hits")
+        .read_on_cpu(rays_.buffer())
+        .write_on_cpu(samples_.buffer())
+        .run_on_cpu([&] {
+            result_ =
+                direct.tracer.trace_lights(rays_.buffer().mapped<glm::uvec4>(),
+                                           samples_.buffer().mapped<glm::uvec4>(), world, direct.shadow_key);
+        });
+    return samples_;
+}
+
+}  // namespace tarn

@@ -1,0 +1,200 @@
+// The unbiased modes of ReSTIR meet the reference in frame 1, 16 and 64 and under a moving camera; their MIS
+// weights sum to 1; and five classic mistakes of reuse, planted one at a time, are found by the same test.
+#include <cstdlib>
+
+#include "direct_light_case.h"
+
+namespace tarn::test {
+namespace {
+
+// TARN_TEST_SEEDS asks for more than there is time for in a test run.
+int seed_count() {
+    const char* asked = std::getenv("TARN_TEST_SEEDS");
+    return asked != nullptr ? std::max(8, std::atoi(asked)) : 32;
+}
+
+// Frames that are compared, counted from 0: the 1st, the 16th and the 64th. The first costs little and is the
+// noisiest: it gets more seeds. (With 32 of them lantern_court's single frames met some lights in no seed at
+// all.)
+constexpr int FIRST_FRAME_SEEDS_FACTOR = 16;
+constexpr int LATER_FRAMES[] = {15, 63};
+constexpr int MOVING_FRAMES = 12;
+
+RenderSettings unbiased_settings(Mis mis) {
+    RenderSettings settings = find_preset("unbiased").settings;
+    settings.mis = mis;
+    return settings;
+}
+
+class Restir : public DirectLightTest {
+  protected:
+    void SetUp() override {
+        prepare(double(unbiased_settings(Mis::BALANCE).candidates) * FIRST_FRAME_SEEDS_FACTOR * seed_count());
+    }
+
+    Renderer make_renderer(const std::vector<std::string>& defines) {
+        TestScene& scene = case_->scene();
+        return Renderer(scene.world, *scene.tracer, WIDTH_PX, HEIGHT_PX, defines);
+    }
+
+    void add(TileSamples& samples, const Renderer& renderer, const FrameOutput& output) {
+        Image image = renderer.read_radiance(output.radiance);
+        case_->clear_left_out(image);
+        samples.add(image);
+    }
+
+    // The first frame of many seeds, a still camera.
+    TileTest run_first(const RenderSettings& settings, const std::string& what) {
+        Renderer renderer = make_renderer({});
+        FrameInput input;
+        input.camera = case_->camera();
+        input.settings = settings;
+        TileSamples samples(WIDTH_PX, HEIGHT_PX, TILE_PX);
+        for (int seed = 0; seed < FIRST_FRAME_SEEDS_FACTOR * seed_count(); ++seed) {
+            input.seed = std::uint32_t(seed) + 4000u;
+            renderer.reset_history();
+            add(samples, renderer, renderer.render(input));
+        }
+        expect_silence(renderer);
+        return case_->test(samples, what + ", frame 1");
+    }
+
+    // A still camera; one test for each of the later frames up to `last_frame`.
+    std::vector<TileTest> run_still(const RenderSettings& settings, const std::string& what, int last_frame,
+                                    const std::vector<std::string>& defines = {}) {
+        Renderer renderer = make_renderer(defines);
+        FrameInput input;
+        input.camera = case_->camera();
+        input.settings = settings;
+        std::vector<TileSamples> samples(std::size(LATER_FRAMES), TileSamples(WIDTH_PX, HEIGHT_PX, TILE_PX));
+        for (int seed = 0; seed < seed_count(); ++seed) {
+            input.seed = std::uint32_t(seed) + 2000u;
+            renderer.reset_history();
+            for (int frame = 0; frame <= last_frame; ++frame) {
+                input.frame = std::uint32_t(frame);
+                const FrameOutput output = renderer.render(input);
+                for (std::size_t i = 0; i < samples.size(); ++i) {
+                    if (frame == LATER_FRAMES[i]) add(samples[i], renderer, output);
+                }
+            }
+        }
+        if (defines.empty()) expect_silence(renderer);
+        std::vector<TileTest> tests;
+        for (std::size_t i = 0; i < samples.size() && LATER_FRAMES[i] <= last_frame; ++i) {
+            tests.push_back(case_->test(samples[i], fmt::format("{}, frame {}", what, LATER_FRAMES[i] + 1)));
+        }
+        return tests;
+    }
+
+    // A camera that glides into the view of the reference and arrives with the last frame.
+    TileTest run_moving(const RenderSettings& settings, const std::string& what,
+                        const std::vector<std::string>& defines = {}) {
+        Renderer renderer = make_renderer(defines);
+        FrameInput input;
+        input.settings = settings;
+        TileSamples samples(WIDTH_PX, HEIGHT_PX, TILE_PX);
+        for (int seed = 0; seed < seed_count(); ++seed) {
+            input.seed = std::uint32_t(seed) + 3000u;
+            renderer.reset_history();
+            for (int frame = 0; frame < MOVING_FRAMES; ++frame) {
+                input.frame = std::uint32_t(frame);
+                input.camera = camera_before_the_end(MOVING_FRAMES - 1 - frame);
+                const FrameOutput output = renderer.render(input);
+                if (frame + 1 == MOVING_FRAMES) add(samples, renderer, output);
+            }
+        }
+        return case_->test(samples, what + ", moving");
+    }
+
+    // Two pixels a frame sideways, and forward with it.
+    CameraRecord camera_before_the_end(int frames) const {
+        CameraRecord camera = case_->camera();
+        const World& world = case_->scene().world;
+        const float step = 0.002f * float(glm::length(world.bounds.extent()));
+        camera.position -= (glm::normalize(camera.right) + camera.forward) * (step * float(frames));
+        return camera;
+    }
+
+    static void expect_silence(const Renderer& renderer) {
+        for (const auto& [name, value] : renderer.read_counters()) EXPECT_EQ(value, 0u) << name;
+    }
+
+    void expect_all_pass(Mis mis, const std::string& name) {
+        EXPECT_TRUE(run_first(unbiased_settings(mis), name).passes);
+        for (const TileTest& test : run_still(unbiased_settings(mis), name, LATER_FRAMES[1])) {
+            EXPECT_TRUE(test.passes) << name;
+        }
+    }
+};
+
+TEST_P(Restir, BalanceHasTheReferencesMean) {
+    expect_all_pass(Mis::BALANCE, "balance");
+}
+
+TEST_P(Restir, PairwiseHasTheReferencesMean) {
+    expect_all_pass(Mis::PAIRWISE, "pairwise");
+}
+
+TEST_P(Restir, CountHasTheReferencesMean) {
+    expect_all_pass(Mis::COUNT, "count");
+}
+
+TEST_P(Restir, AMovingCameraKeepsTheReferencesMean) {
+    EXPECT_TRUE(run_moving(unbiased_settings(Mis::PAIRWISE), "pairwise").passes);
+}
+
+TEST_P(Restir, MisWeightsSumToOneInEveryPixel) {
+    for (const Mis mis : {Mis::BALANCE, Mis::PAIRWISE}) {
+        Renderer renderer = make_renderer({"TARN_CHECK_MIS"});
+        FrameInput input;
+        input.camera = case_->camera();
+        input.settings = unbiased_settings(mis);
+        for (input.frame = 0; input.frame < 8; ++input.frame) renderer.render(input);
+        EXPECT_EQ(renderer.read_counters().at("mis_sums"), 0u) << "mis " << int(mis);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Restir,
+                         testing::Values("cornell", "lantern_court", "VeachMIS", "CyberpunkManyLights"),
+                         [](const auto& info) { return std::string(info.param); });
+
+// ---- Planted bugs
+
+class RestirBugs : public Restir {};
+
+TEST_P(RestirBugs, AreFoundWhicheverTheWeights) {
+    for (const char* bug :
+         {"TARN_PLANT_SKIP_CONFIDENCE", "TARN_PLANT_TARGET_AT_NEIGHBOUR", "TARN_PLANT_DROP_NORMALIZATION"}) {
+        for (const Mis mis : {Mis::COUNT, Mis::BALANCE, Mis::PAIRWISE}) {
+            const std::vector<TileTest> tests = run_still(
+                unbiased_settings(mis), fmt::format("{} {}", bug, int(mis)), LATER_FRAMES[0], {bug});
+            EXPECT_FALSE(tests.back().passes) << bug << " with mis " << int(mis);
+        }
+    }
+}
+
+// Balance asks its techniques one by one: it has no sum over all neighbours that dead ones could enter.
+TEST_P(RestirBugs, DeadNeighboursThatCountAreFound) {
+    const char* bug = "TARN_PLANT_COUNT_DEAD";
+    EXPECT_FALSE(run_still(unbiased_settings(Mis::PAIRWISE), bug, LATER_FRAMES[0], {bug}).back().passes);
+}
+
+TEST_P(RestirBugs, DeadNeighboursThatCountBreakTheSumOfTheWeights) {
+    Renderer renderer = make_renderer({"TARN_CHECK_MIS", "TARN_PLANT_COUNT_DEAD"});
+    FrameInput input;
+    input.camera = case_->camera();
+    input.settings = unbiased_settings(Mis::PAIRWISE);
+    renderer.render(input);
+    EXPECT_GT(renderer.read_counters().at("mis_sums"), 0u);
+}
+
+TEST_P(RestirBugs, ThePreviousNormalIsFoundUnderAMovingCamera) {
+    const char* bug = "TARN_PLANT_PREVIOUS_NORMAL";
+    EXPECT_FALSE(run_moving(unbiased_settings(Mis::PAIRWISE), bug, {bug}).passes);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, RestirBugs, testing::Values("lantern_court"),
+                         [](const auto& info) { return std::string(info.param); });
+
+}  // namespace
+}  // namespace tarn::test
