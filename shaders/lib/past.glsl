@@ -60,6 +60,9 @@ bool load_previous_receiver(ivec2 pixel, out Receiver r) {
 bool is_in_light_table(LightSample drawn) { return drawn.light < LIGHT_ENVIRONMENT; }
 
 uint remap_light(uint light, bool to_past) {
+#ifdef TARN_PLANT_NO_REMAP
+    if (!to_past) return light;
+#endif
     if (frame_history.z == INVALID_INDEX) return light;
     uvec4 row = fetch_light_row(frame_history.z + light);
     return to_past ? row.x : row.y;

@@ -163,6 +163,11 @@ Reservoir merge(Pair p, ivec2 pixel) {
 #ifdef TARN_PLANT_TARGET_AT_NEIGHBOUR
     if (here_past > 0.0f) past_offer *= there_past / here_past;
 #endif
+#ifdef TARN_PLANT_PREVIOUS_NORMAL
+    Receiver mixed_up = make_receiver(p.here.point, from_local(p.here.frame, p.here.view_local));
+    mixed_up.frame = p.there.frame;
+    if (here_past > 0.0f) past_offer *= sample_target(mixed_up, p.past.chosen) / here_past;
+#endif
     offer_merged(m, p.fresh, here_fresh, fresh_offer, u.x);
     offer_merged(m, p.past, here_past, past_offer, u.y);
     bool past_leads = m.live.target > 0.0f && past_offer > 0.0f && u.y * m.live.weight_sum < past_offer;
@@ -204,10 +209,6 @@ void main() {
     Reservoir result = fresh;
     if (has_pair) {
         Pair pair = make_pair(here, fresh, there_pixel);
-#ifdef TARN_PLANT_PREVIOUS_NORMAL
-        pair.here.point.shading_normal = pair.there.point.shading_normal;
-        pair.here.frame = pair.there.frame;
-#endif
         result = merge(pair, pixel);
     }
 #ifdef TARN_PLANT_COUNT_DEAD
