@@ -20,14 +20,16 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 // A pass that runs several times a frame is one row.
-void add_timing(FrameTimings& timings, const std::string& name, double ms) {
+void add_timing(FrameTimings& timings, const PassTiming& timing) {
     for (PassTiming& pass : timings.passes) {
-        if (pass.name == name) {
-            pass.ms += ms;
+        if (pass.name == timing.name) {
+            pass.ms += timing.ms;
+            pass.bytes_read += timing.bytes_read;
+            pass.bytes_written += timing.bytes_written;
             return;
         }
     }
-    timings.passes.push_back({name, ms});
+    timings.passes.push_back(timing);
 }
 
 }  // namespace
@@ -43,50 +45,59 @@ PassRecorder::~PassRecorder() = default;
 PassRecorder& PassRecorder::read(unsigned unit, const Texture2D& texture) {
     frame_.check_written(texture.id(), true, name_, texture.name());
     texture.bind(unit);
+    bytes_read_ += texture.size_bytes();
     return *this;
 }
 
 PassRecorder& PassRecorder::read(unsigned unit, const BufferTexture& texture, const Buffer& buffer) {
     frame_.check_written(buffer.id(), false, name_, buffer.name());
     texture.bind(unit);
+    bytes_read_ += buffer.size_bytes();
     return *this;
 }
 
 PassRecorder& PassRecorder::read(unsigned unit, const TextureArray& textures) {
     frame_.check_written(textures.id(), true, name_, textures.name());
     textures.bind(unit);
+    bytes_read_ += textures.size_bytes();
     return *this;
 }
 
 PassRecorder& PassRecorder::read(unsigned unit, const Past<RowBuffer>& rows) {
     rows.value().texture().bind(unit);
+    bytes_read_ += rows.value().buffer().size_bytes();
     return *this;
 }
 
 PassRecorder& PassRecorder::write(const TextureArray& textures) {
     frame_.written_.emplace(true, textures.id());
+    bytes_written_ += textures.size_bytes();
     return *this;
 }
 
 PassRecorder& PassRecorder::write_image(unsigned unit, const Texture2D& texture) {
     texture.bind_image(unit, GL_WRITE_ONLY);
     frame_.written_.emplace(true, texture.id());
+    bytes_written_ += texture.size_bytes();
     return *this;
 }
 
 PassRecorder& PassRecorder::write(unsigned binding, const Buffer& buffer) {
     buffer.bind_storage(binding);
     frame_.written_.emplace(false, buffer.id());
+    bytes_written_ += buffer.size_bytes();
     return *this;
 }
 
 PassRecorder& PassRecorder::read_on_cpu(const Buffer& buffer) {
     frame_.check_written(buffer.id(), false, name_, buffer.name());
+    bytes_read_ += buffer.size_bytes();
     return *this;
 }
 
 PassRecorder& PassRecorder::write_on_cpu(const Buffer& buffer) {
     frame_.written_.emplace(false, buffer.id());
+    bytes_written_ += buffer.size_bytes();
     return *this;
 }
 
@@ -98,7 +109,10 @@ PassRecorder& PassRecorder::count(unsigned binding, const Buffer& buffer) {
 PassRecorder& PassRecorder::write_target(const Framebuffer& target,
                                          std::initializer_list<const Texture2D*> colours) {
     target.bind();
-    for (const Texture2D* colour : colours) frame_.written_.emplace(true, colour->id());
+    for (const Texture2D* colour : colours) {
+        frame_.written_.emplace(true, colour->id());
+        bytes_written_ += colour->size_bytes();
+    }
     return *this;
 }
 
@@ -109,11 +123,13 @@ void PassRecorder::dispatch(const Program& program, int width_px, int height_px)
                           GLuint((height_px + GROUP_SIZE_PX - 1) / GROUP_SIZE_PX), 1);
         glMemoryBarrier(AFTER_DISPATCH);
     });
+    note_traffic(false);
 }
 
 void PassRecorder::draw(const Program& program, const std::function<void()>& draws) {
     program.use();
     frame_.time_device_work(name_, draws);
+    note_traffic(false);
 }
 
 void PassRecorder::run_on_cpu(const std::function<void()>& work) {
@@ -121,6 +137,14 @@ void PassRecorder::run_on_cpu(const std::function<void()>& work) {
     const auto start = std::chrono::steady_clock::now();
     work();
     frame_.timed_.push_back({name_, 0, milliseconds_since(start)});
+    note_traffic(true);
+}
+
+void PassRecorder::note_traffic(bool is_on_cpu) {
+    FrameRecorder::Timed& timed = frame_.timed_.back();
+    timed.bytes_read = bytes_read_;
+    timed.bytes_written = bytes_written_;
+    timed.is_on_cpu = is_on_cpu;
 }
 
 // ---- FrameRecorder
@@ -148,7 +172,7 @@ FrameTimings FrameRecorder::end() {
             const std::uint64_t to = queries_[timed.first_query + 1].read_ns();
             ms = to > from ? double(to - from) * 1e-6 : 0.0;
         }
-        add_timing(timings, timed.name, ms);
+        add_timing(timings, {timed.name, ms, timed.bytes_read, timed.bytes_written, timed.is_on_cpu});
     }
     return timings;
 }

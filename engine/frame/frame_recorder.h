@@ -73,9 +73,13 @@ class PassRecorder {
     void run_on_cpu(const std::function<void()>& work);
 
   private:
+    void note_traffic(bool is_on_cpu);
+
     FrameRecorder& frame_;
     std::string name_;
     DebugGroup group_;
+    std::size_t bytes_read_ = 0;
+    std::size_t bytes_written_ = 0;
 };
 
 class FrameRecorder {
@@ -96,6 +100,9 @@ class FrameRecorder {
         std::string name;
         std::size_t first_query = 0;  // begin and end in queries_, where the device's clock is used
         double wall_ms = -1.0;        // >= 0: by the wall clock
+        std::size_t bytes_read = 0;
+        std::size_t bytes_written = 0;
+        bool is_on_cpu = false;
     };
 
     void check_written(unsigned id, bool is_texture, const std::string& pass,

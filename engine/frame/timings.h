@@ -1,6 +1,7 @@
 // What each pass of a frame cost.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
@@ -10,6 +11,9 @@ namespace tarn {
 struct PassTiming {
     std::string name;  // "direct/candidates": also the debug group, the shader's path and the key in JSON
     double ms = 0.0;
+    std::size_t bytes_read = 0;  // of what the pass said it reads and writes, whole tables and images
+    std::size_t bytes_written = 0;
+    bool is_on_cpu = false;  // the worker threads' own work
 };
 
 struct FrameTimings {

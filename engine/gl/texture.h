@@ -36,6 +36,9 @@ class TextureArray {
     int height_px() const { return height_px_; }
     int layers() const { return layers_; }
     const PixelFormat& format() const { return format_; }
+    std::size_t size_bytes() const {
+        return std::size_t(width_px_) * std::size_t(height_px_) * std::size_t(layers_) * format_.bytes;
+    }
     GLuint id() const { return handle_.id(); }
 
   private:

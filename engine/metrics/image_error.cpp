@@ -12,7 +12,6 @@
 namespace tarn {
 namespace {
 
-constexpr double EPSILON = 0.01;
 constexpr std::size_t TRIMMED_SHARE = 1000;  // one pixel in so many is left out of the trimmed relMSE
 
 // The sum without its largest terms. Takes `terms` apart.
@@ -67,9 +66,9 @@ ImageErrors compute_image_errors(const Image& reference, const Image& image, dou
             reference_sum += a;
             image_sum += b;
             errors.mse += square;
-            relative_square += square / (a * a + EPSILON);
-            errors.rmspe += square / ((a + EPSILON) * (a + EPSILON));
-            errors.mape += std::abs(b - a) / (std::abs(a) + EPSILON);
+            relative_square += square / (a * a + REL_MSE_EPSILON);
+            errors.rmspe += square / ((a + REL_MSE_EPSILON) * (a + REL_MSE_EPSILON));
+            errors.mape += std::abs(b - a) / (std::abs(a) + REL_MSE_EPSILON);
         }
         relative_squares.push_back(relative_square / 3.0);
     }

@@ -7,6 +7,9 @@
 
 namespace tarn {
 
+// What relMSE adds to the squared reference, and RMSPE and MAPE to the reference.
+inline constexpr double REL_MSE_EPSILON = 0.01;
+
 // a is the reference, b the image. Each term is averaged over the channels of a pixel, then over pixels.
 struct ImageErrors {
     double mse = 0;              // mean (b - a)^2

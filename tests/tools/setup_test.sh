@@ -125,13 +125,24 @@ tools/test: the build failed; the whole log: $SANDBOX/root/build/release/build.l
     expect "tests not run" "$(grep -c '^ctest' "$SANDBOX/calls")" 0
 }
 
-test_main_job_without_a_display_is_the_flythrough() {
+test_main_job_without_a_display_is_the_report() {
     make_checkout
-    printf '#!/bin/bash\necho "$@"\n' >"$SANDBOX/root/build/release/tarn"
-    DISPLAY=:77 WAYLAND_DISPLAY='' run_tool run
-    expect "tarn's arguments" "$output" "flythrough --out $SANDBOX/root/out/flythrough"
+    printf '#!/bin/bash\necho "$1" "${@: -2}"\n' >"$SANDBOX/root/build/release/tarn"
+    local out=$SANDBOX/root/out/report
+    DISPLAY=:77 WAYLAND_DISPLAY='' BROWSER='' run_tool run
+    expect "the three steps" "$output" "flythrough --out $out/flythrough
+bench --out $out/bench
+report --out $out/report.html"
     expect "status" "$status" 0
-    expect "where" "${errors##* }" "$SANDBOX/root/out/flythrough"
+    expect "where" "${errors##* }" "$out/report.html"
+}
+
+test_a_browser_opens_the_report() {
+    make_checkout
+    printf '#!/bin/bash\n' >"$SANDBOX/root/build/release/tarn"
+    stand_in reader 'echo "reads $1"'
+    DISPLAY=:77 WAYLAND_DISPLAY='' BROWSER=reader run_tool run
+    expect "what is opened" "$output" "reads $SANDBOX/root/out/report/report.html"
 }
 
 test_main_job_with_a_display_is_the_viewer() {

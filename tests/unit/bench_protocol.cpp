@@ -46,6 +46,12 @@ TEST(BenchProtocol, AKnownBiasStandsApartFromNoiseAndFlattensTheCurve) {
     const Json& bias = cell_of(results, 1, "mean")["bias"];
     EXPECT_GT(bias["low"].get<double>(), 0.0);
     EXPECT_TRUE(bias["low"].get<double>() <= 0.04 && 0.04 <= bias["high"].get<double>()) << bias.dump();
+    const Json& relative = cell_of(results, 1, "mean")["relative_bias"];
+    double expected = 0.0;
+    const Image truth = ToySource::make_reference().radiance;
+    for (const float value : truth.values)
+        expected += 0.04 / (double(value) * value + 0.01) / double(truth.values.size());
+    EXPECT_TRUE(holds(relative, expected)) << relative.dump() << " against " << expected;
     EXPECT_GT(results["scenes"][0]["methods"][1]["slope"]["low"].get<double>(), -0.9);
     EXPECT_LE(cell_of(results, 0, "mean")["bias"]["low"].get<double>(), 0.0);
 }

@@ -1,5 +1,6 @@
 #include "bench/bench_run.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -10,6 +11,8 @@ namespace tarn {
 namespace {
 
 constexpr int TIMED_FRAMES = 3;
+// A frame with a past costs the same whether the past is full or not.
+constexpr int TIMING_WARM_UP_FRAMES = 2;
 constexpr int CALIBRATION_ROUNDS = 3;
 constexpr double GOOD_FIT = 0.15;
 // Frame numbers of different cells never meet: the same seed gives each its own random numbers.
@@ -50,10 +53,11 @@ std::string cell_name(const Cell& cell) {
 // Milliseconds of a whole picture of a cell.
 double try_fit(FrameSource& source, const Method& method, std::size_t index, const TimeFit& fit) {
     double ms = 0.0;
-    for (int i = 0; i < method.warm_up_frames + fit.frames; ++i) {
+    const int warm_up_frames = std::min(method.warm_up_frames, TIMING_WARM_UP_FRAMES);
+    for (int i = 0; i < warm_up_frames + fit.frames; ++i) {
         const RenderedFrame frame =
             source.render(index, fit.settings, 0, CALIBRATION_FRAME + std::uint32_t(i), i == 0);
-        if (i >= method.warm_up_frames) ms += frame.timings.frame_ms;
+        if (i >= warm_up_frames) ms += frame.timings.frame_ms;
     }
     return ms;
 }
@@ -62,7 +66,8 @@ Cell plan_cell(const BenchPlan& plan, std::size_t method_index, int budget, Fram
     const Method& method = plan.methods[method_index];
     if (budget < 0) return {method_index, budget, {method.settings, plan.frames, 0.0}};
     const auto timer = [&](const RenderSettings& settings) {
-        return time_frame_ms(source, method_index, method.warm_up_frames, settings);
+        return time_frame_ms(source, method_index, std::min(method.warm_up_frames, TIMING_WARM_UP_FRAMES),
+                             settings);
     };
     const double budget_ms = plan.budgets_ms[std::size_t(budget)];
     Cell cell{method_index, budget, {}};

@@ -17,10 +17,20 @@ struct MethodRow {
     int warm_up_frames;
 };
 
+// Histories are full after as many frames as their confidence is capped at.
+constexpr int RESTIR_WARM_UP_FRAMES = 20;
+
 constexpr MethodRow METHODS[] = {
     {"uniform", "one light at random, one shadow ray", "direct=uniform", "", 0},
+    {"power", "one light by its power, one shadow ray", "direct=power", "", 0},
     {"ris", "the best of several lights by power and reflection, one shadow ray", "direct=ris", "candidates",
      0},
+    {"restir-fast", "ReSTIR, preset fast: some bias, least noise for its time", "preset=fast", "candidates",
+     RESTIR_WARM_UP_FRAMES},
+    {"restir-balanced", "ReSTIR, preset balanced: the chosen sample traced", "preset=balanced", "candidates",
+     RESTIR_WARM_UP_FRAMES},
+    {"restir-unbiased", "ReSTIR, preset unbiased: rays in all MIS weights", "preset=unbiased", "candidates",
+     RESTIR_WARM_UP_FRAMES},
 };
 
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -40,13 +50,17 @@ std::string join_names(const Range& range, const Name& name) {
     return list;
 }
 
-// Applies "setting=value" and returns the setting's name.
+// Applies "setting=value" or "preset=name" and returns what stands before the sign.
 std::string apply_setting(RenderSettings& settings, const std::string& text, const std::string& method) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos) {
         throw Error("method '{}': '{}' is not setting=value", method, text);
     }
     const std::string name = text.substr(0, equals);
+    if (name == "preset") {
+        settings = find_preset(text.substr(equals + 1)).settings;
+        return name;
+    }
     find_setting(name).parse(settings, text.substr(equals + 1));
     return name;
 }

@@ -66,15 +66,53 @@ Json describe_errors(const CellView& view) {
     return errors;
 }
 
-Json describe_bias(const CellView& view, const Truth& truth) {
-    const BiasVariance split = split_bias_variance(truth.radiance, view.pictures, truth.mean_variance);
-    const double scale = std::exp2(2.0 * double(truth.exposure_ev));
+// Half of the 95 % interval that the reference's own noise adds to bias squared, as if it were normal: the
+// square of a pixel's error varies by twice its variance squared.
+double find_reference_reach(const Image& variance) {
+    double sum = 0.0, pixels = 0.0;
+    for (std::size_t i = 0; i < variance.pixel_count(); ++i) {
+        const double pixel =
+            (double(variance.values[3 * i]) + variance.values[3 * i + 1] + variance.values[3 * i + 2]) / 3.0;
+        if (!std::isfinite(pixel)) continue;
+        sum += 2.0 * pixel * pixel;
+        pixels += 1.0;
+    }
+    return pixels > 0.0 ? 1.96 * std::sqrt(sum) / pixels : 0.0;
+}
+
+// The split of `pictures` against a reference whose mean has `variance`, errors times `scale`.
+Json describe_split(const Image& reference, const Image& variance, const std::vector<Image>& pictures,
+                    double scale) {
+    const BiasVariance split = split_bias_variance(reference, pictures, mean_finite_value(variance));
+    const double reference_reach = find_reference_reach(variance);
+    const double reach = std::hypot(split.bias_squared_high - split.bias_squared, reference_reach);
     return {{"bias_squared", scale * split.bias_squared},
-            {"low", scale * split.bias_squared_low},
-            {"high", scale * split.bias_squared_high},
+            {"low", scale * (split.bias_squared - reach)},
+            {"high", scale * (split.bias_squared + reach)},
             {"variance", scale * split.variance},
             {"mse_of_mean", scale * split.mse_of_mean},
             {"neighbour_autocorrelation", split.neighbour_autocorrelation}};
+}
+
+Json describe_bias(const CellView& view, const Truth& truth) {
+    return describe_split(truth.radiance, truth.variance, view.pictures,
+                          std::exp2(2.0 * double(truth.exposure_ev)));
+}
+
+// The split of relMSE: each value over the root of relMSE's divisor.
+Json describe_relative_bias(const CellView& view, const Truth& truth) {
+    const double scale = std::exp2(double(truth.exposure_ev));
+    std::vector<float> weights;
+    for (const float value : truth.radiance.values) {
+        weights.push_back(float(scale / std::sqrt(scale * scale * double(value) * value + REL_MSE_EPSILON)));
+    }
+    const auto weigh = [&](Image image) {
+        for (std::size_t i = 0; i < weights.size(); ++i) image.values[i] *= weights[i];
+        return image;
+    };
+    std::vector<Image> pictures;
+    for (const Image& picture : view.pictures) pictures.push_back(weigh(picture));
+    return describe_split(weigh(truth.radiance), weigh(weigh(truth.variance)), pictures, 1.0);
 }
 
 // Median and p95 over all frames, and the median of each seed.
@@ -142,6 +180,7 @@ Json describe_view(const BenchPlan& plan, const CellView& view, const Truth& tru
     json["ms"] = {{"median", quantile(ms, 0.5)}, {"p95", quantile(ms, 0.95)}, {"per_seed", ms}};
     json["errors"] = describe_errors(view);
     json["bias"] = describe_bias(view, truth);
+    json["relative_bias"] = describe_relative_bias(view, truth);
     json["flicker"] = describe_values(collect(view, [](const SequenceMeasure& m) { return m.flicker; }));
     json["counts"] = describe_counts(view, truth.radiance.pixel_count());
     json["frame_ms"] = describe_times([&] {

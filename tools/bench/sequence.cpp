@@ -16,14 +16,6 @@ double linear_scale(const Truth& truth) {
     return std::exp2(double(truth.exposure_ev));
 }
 
-double mean_finite_value(const Image& image) {
-    RunningMoments moments;
-    for (const float value : image.values) {
-        if (std::isfinite(value)) moments.add(value);
-    }
-    return moments.mean();
-}
-
 // Sum of frames in double, so that a thousand of them lose nothing.
 struct FrameSum {
     std::vector<double> values;
@@ -130,6 +122,14 @@ std::map<std::string, std::uint64_t> count_since(const std::map<std::string, std
 
 }  // namespace
 
+double mean_finite_value(const Image& image) {
+    RunningMoments moments;
+    for (const float value : image.values) {
+        if (std::isfinite(value)) moments.add(value);
+    }
+    return moments.mean();
+}
+
 Truth make_truth(const ReferenceResult& reference, std::span<const std::uint32_t> left_out,
                  std::optional<float> exposure_ev) {
     Truth truth;
@@ -140,13 +140,13 @@ Truth make_truth(const ReferenceResult& reference, std::span<const std::uint32_t
     truth.left_out = left_out.size();
     truth.spp = reference.spp;
     truth.relative_error = reference.relative_error;
-    Image variance = reference.variance;
-    for (Image* image : {&truth.radiance, &truth.display, &variance}) {
+    truth.variance = reference.variance;
+    for (Image* image : {&truth.radiance, &truth.display, &truth.variance}) {
         for (const std::uint32_t pixel : left_out) {
             for (std::size_t c = 0; c < 3; ++c) image->values[3 * std::size_t(pixel) + c] = std::nanf("");
         }
     }
-    truth.mean_variance = mean_finite_value(variance);
+    truth.mean_variance = mean_finite_value(truth.variance);
     return truth;
 }
 

@@ -41,7 +41,8 @@ struct Truth {
     Image display;               // the same, exposed and tone-mapped
     Image picture;               // radiance of all pixels, for the eye
     std::size_t left_out = 0;    // pixels
-    double mean_variance = 0.0;  // of the reference's own mean, averaged over channels and pixels
+    Image variance;              // of the reference's own mean
+    double mean_variance = 0.0;  // the same, averaged over channels and pixels
     float exposure_ev = 0.0f;
     std::uint64_t spp = 0;
     double relative_error = 0.0;  // as ReferenceResult::relative_error
@@ -51,6 +52,9 @@ struct Truth {
 // round to different triangles there. Without `exposure_ev` exposed automatically.
 Truth make_truth(const ReferenceResult& reference, std::span<const std::uint32_t> left_out = {},
                  std::optional<float> exposure_ev = {});
+
+// The mean of the values that are finite; 0 where none is.
+double mean_finite_value(const Image& image);
 
 struct PictureErrors {
     ImageErrors linear;

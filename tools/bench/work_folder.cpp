@@ -1,19 +1,12 @@
 #include "bench/work_folder.h"
 
+#include "bench/sequence_json.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "image_io/file.h"
 #include "image_io/image_io.h"
 
 namespace tarn {
-
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ImageErrors, mse, rmse, rel_mse, rel_mse_trimmed, rmspe, mape, mean_ratio,
-                                   pixels, non_finite)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PictureErrors, linear, flip_ldr)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CurvePoint, frames, mse, rel_mse, rel_mse_trimmed)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PassSamples, name, ms)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SequenceMeasure, frame_ms, passes, rays, flicker, repeated_frames, first,
-                                   mean, counters, curve)
 
 namespace {
 

@@ -39,16 +39,16 @@ function makeCellTable(scene, headings, describe) {
 }
 
 function makeErrorTable(scene) {
-  return makeCellTable(scene, ["ms (p95)", "relMSE", "trimmed", "FLIP", "energy", "bias²"], (cell) => {
+  return makeCellTable(scene, ["ms (p95)", "relMSE", "trimmed", "FLIP", "energy", "relative bias²"], (cell) => {
     const ratio = cell.errors.mean_ratio;
     return [makeMs(cell), makeEstimate(cell.errors.rel_mse), makeEstimate(cell.errors.rel_mse_trimmed),
-      makeEstimate(cell.errors.flip_ldr), makeEstimate(ratio, ratio.low > 1 || ratio.high < 1), makeBias(cell.bias)];
+      makeEstimate(cell.errors.flip_ldr), makeEstimate(ratio, ratio.low > 1 || ratio.high < 1), makeBias(cell.relative_bias)];
   });
 }
 
 function makeDetailTable(scene) {
-  return makeCellTable(scene, ["by", "MSE", "variance", "MAPE %", "RMSPE %", "correlation", "flicker", "rays/px"],
-    (cell, method) => [describeEffort(method, cell), makeEstimate(cell.errors.mse), formatNumber(cell.bias.variance),
+  return makeCellTable(scene, ["by", "MSE", "bias²", "variance", "MAPE %", "RMSPE %", "correlation", "flicker", "rays/px"],
+    (cell, method) => [describeEffort(method, cell), makeEstimate(cell.errors.mse), makeBias(cell.bias), formatNumber(cell.bias.variance),
       makeEstimate(cell.errors.mape), makeEstimate(cell.errors.rmspe), formatNumber(cell.bias.neighbour_autocorrelation),
       formatNumber(cell.flicker.mean), formatNumber(cell.counts.rays_per_pixel)]);
 }

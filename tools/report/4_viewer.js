@@ -52,7 +52,8 @@ class Viewer {
       select.addEventListener("change", () => { this.state[side] = Number(select.value); this.draw(); });
       return select;
     };
-    this.buttons = Object.entries(VIEW_MODES).map(([mode, label]) => {
+    const modes = Object.entries(VIEW_MODES).filter(([mode]) => mode !== "difference" || this.pictures.some((p) => p.flip));
+    this.buttons = modes.map(([mode, label]) => {
       const button = element("button", {"data-mode": mode}, label);
       button.addEventListener("click", () => this.setMode(mode));
       return button;

@@ -65,11 +65,51 @@ function makeSceneSection(scene, settings, number) {
   return box;
 }
 
+function makeFlightTable(flight) {
+  return makeTable(["method", "median ms", "p95 ms", "relMSE", "FLIP", "energy", "flicker"], flight.methods.map((method, index) => {
+    const mean = (name) => formatNumber(method.errors.reduce((sum, frame) => sum + frame[name], 0) / method.errors.length);
+    const hasErrors = method.errors.length > 0;
+    return {cells: [element("span", {title: method.sentence}, swatch(index), method.label), formatMs(method.frame_ms.median),
+      formatMs(method.frame_ms.p95), ...["rel_mse", "flip_ldr", "mean_ratio", "flicker"].map((name) => hasErrors ? mean(name) : "–")]};
+  }));
+}
+
+function makeFlightCharts(flight) {
+  const lines = (get) => flight.methods.map((method, index) => ({label: method.label, colour: colourOf(index), points: get(method)}));
+  const errorLines = (metric) => lines((method) => method.errors.map((frame) => ({x: frame.frame, y: frame[metric]})));
+  const charts = element("div", {class: "charts"}, makeFigure("Time of each frame.", () =>
+    makeFrameLines(lines((method) => method.frame_ms.per_frame.map((ms, index) => ({x: index, y: ms}))), "ms", false)));
+  if (flight.measured.length > 0) {
+    charts.append(makeMetricFigure("Error of single frames.", ["rel_mse", "rel_mse_trimmed", "flip_ldr", "mape"],
+      (metric) => makeFrameLines(errorLines(metric), METRIC_NAMES[metric], true)),
+      makeFigure("Flicker: change of a frame while nothing moves, over the mean.", () =>
+        makeFrameLines(errorLines("flicker"), "flicker", false)));
+  }
+  charts.append(makeFigure("Time of each pass.", () => makePassBars(flight.methods.map((method) => ({label: method.label,
+    passes: method.passes.map((pass) => ({name: pass.name, ms: pass.ms.median}))})))));
+  return charts;
+}
+
+function makeFlightSection(flight, number) {
+  const box = element("section", {}, element("h2", {}, `${flight.name}: flythrough ${flight.path}`), element("p", {class: "quiet"},
+    `${flight.frames} frames${flight.interrupted ? ", interrupted" : ""}; references of ${flight.reference_spp} samples a pixel; ` +
+    `exposure ${flight.exposure_ev.toFixed(2)} EV. Errors and flicker are means over ${flight.measured.length} measured frames.`),
+    makeFlightTable(flight), makeFlightCharts(flight));
+  const pictures = flight.measured.flatMap((moment) => Object.entries(moment.pictures).map(([label, file]) =>
+    findPicture(number, {display: file}, `${label}, frame ${moment.frame}`)));
+  if (pictures.length > 0) {
+    box.append(element("h3", {}, "Pictures"));
+    addViewer(box, pictures);
+  }
+  return box;
+}
+
 function makePage() {
   const main = document.getElementById("main");
   document.getElementById("machine").textContent = describeMachine(DOCUMENTS[0].machine);
   DOCUMENTS.forEach((results, number) => {
     if (results.comparison) main.append(makeComparison(results.comparison));
+    for (const flight of results.flythroughs || []) main.append(makeFlightSection(flight, number));
     for (const scene of results.scenes || []) main.append(makeSceneSection(scene, results.settings, number));
   });
   setChartDefaults();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "bench/compare_results.h"
 #include "bench/file_names.h"
 #include "bench/hash.h"
 #include "bench/reference_cache.h"
@@ -36,6 +37,7 @@ struct BenchCommand {
     int frames = 32;
     int reference_spp = 512;
     std::string out = "out/bench";
+    std::string compare;  // results.json of an earlier run
 };
 
 std::string all_method_names() {
@@ -141,7 +143,7 @@ void print_scene(const Json& scene) {
                scene["reference"]["left_out_pixels"].get<std::uint64_t>(),
                scene["reference"]["exposure_ev"].get<double>());
     fmt::print("  {:<28} {:>8} {:>7} {:>18} {:>9} {:>15} {:>22}\n", "method", "ms", "frames", "relMSE",
-               "FLIP", "energy", "bias^2 (95 %)");
+               "FLIP", "energy", "relative bias^2 (95 %)");
     for (const Json& method : scene["methods"]) {
         for (const Json& cell : method["cells"]) {
             const auto value = [&](const char* name, const char* part) {
@@ -158,8 +160,8 @@ void print_scene(const Json& scene) {
                        fmt::format("{:.4f} +- {:.4f}", value("rel_mse", "mean"), reach("rel_mse")),
                        value("flip_ldr", "mean"),
                        fmt::format("{:.3f} +- {:.3f}", value("mean_ratio", "mean"), reach("mean_ratio")),
-                       fmt::format("{:.1e} .. {:.1e}", cell["bias"]["low"].get<double>(),
-                                   cell["bias"]["high"].get<double>()));
+                       fmt::format("{:.1e} .. {:.1e}", cell["relative_bias"]["low"].get<double>(),
+                                   cell["relative_bias"]["high"].get<double>()));
         }
         const Json& slope = method["slope"];
         if (slope["mean"].is_number()) {
@@ -172,6 +174,8 @@ void print_scene(const Json& scene) {
 
 void run_bench(BenchCommand& command) {
     const BenchPlan plan = make_plan(command);
+    std::optional<ReportInput> old;
+    if (!command.compare.empty()) old = load_results(command.compare);
     create_folder(command.out);
     Json results = {{"format", RESULTS_FORMAT}, {"version", RESULTS_VERSION}, {"kind", "bench"}};
     results["settings"] = describe_plan(command, plan);
@@ -184,12 +188,14 @@ void run_bench(BenchCommand& command) {
     results["machine"] = machine;
     results["scenes"] = std::move(scenes);
     const std::filesystem::path out = command.out;
+    if (old) results["comparison"] = compare_results(old->results, results, command.compare);
     write_json(out / "results.json", results);
     write_report(out / "report.html", {{results, out}});
     if (!command.options.json_file.empty()) write_json(command.options.json_file, results);
     for (const WorkFolder& work : works) work.remove();
     std::error_code ignored;
     std::filesystem::remove(out / "unfinished", ignored);
+    if (old) print_comparison(results["comparison"]);
     fmt::print("\nThe report is {}\n", std::filesystem::absolute(out / "report.html").string());
 }
 
@@ -230,6 +236,9 @@ void add_bench_command(CLI::App& app) {
         ->capture_default_str();
     sub->add_option("--out", command->out, "Folder for results.json, the page and its pictures")
         ->capture_default_str();
+    sub->add_option(
+        "--compare", command->compare,
+        "results.json of an earlier run: say what got faster, slower, better, worse beyond the noise");
     sub->callback([command] {
         check_frames(*command);
         run_bench(*command);

@@ -13,6 +13,7 @@ void add_reference_command(CLI::App& app);
 void add_compare_command(CLI::App& app);
 void add_bench_command(CLI::App& app);
 void add_flythrough_command(CLI::App& app);
+void add_floors_command(CLI::App& app);
 void add_report_command(CLI::App& app);
 void add_view_command(CLI::App& app);
 

@@ -19,6 +19,7 @@ int run(int argc, char** argv) {
     add_compare_command(app);
     add_bench_command(app);
     add_flythrough_command(app);
+    add_floors_command(app);
     add_report_command(app);
     add_view_command(app);
     try {

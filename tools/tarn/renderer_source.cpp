@@ -14,7 +14,8 @@ void RendererSource::update() {
 }
 
 RenderedFrame RendererSource::render(std::size_t method, const RenderSettings& settings, std::uint32_t seed,
-                                     std::uint32_t frame, bool /*starts*/) {
+                                     std::uint32_t frame, bool starts) {
+    if (starts) renderers_[method]->reset_history();
     FrameInput input;
     input.camera = camera_;
     input.frame = frame;
