@@ -45,7 +45,7 @@ function makeSceneSection(scene, settings, number) {
     element("p", {class: "quiet"}, describeScene(scene, settings)), makeErrorTable(scene),
     element("details", {}, element("summary", {}, "More errors, correlation of neighbours, rays"), makeDetailTable(scene)));
   const charts = element("div", {class: "charts"},
-    makeMetricFigure("Convergence: mean of 1, 2, 4, … frames; what goes flat is biased.",
+    makeMetricFigure("Convergence: mean of 1, 2, 4, … frames; what goes flat is biased, or its frames hang together.",
       ["rel_mse", "rel_mse_trimmed", "mse"], (metric) => makeConvergence(scene, metric)),
     makeMetricFigure("Error at equal time.", ["rel_mse", "rel_mse_trimmed", "flip_ldr", "mape", "mse"],
       (metric) => makeErrorAgainstTime(scene, metric)),
