@@ -59,6 +59,7 @@ std::vector<glm::uvec4> instance_rows_with_history(const World& world,
 GpuScene::GpuScene(const World& world)
     : mesh_revisions_(revisions_of(world.meshes)),
       instance_revisions_(revisions_of(world.instances)),
+      material_revision_(world.material_revision),
       previous_first_vertex_(find_previous_vertices(world)),
       vertices_("scene/vertex_rows", vertex_rows_with_history(world), GL_RGBA32UI),
       triangles_("scene/triangles", world.triangles, GL_RGB32UI),
@@ -76,6 +77,10 @@ void GpuScene::update(const World& world) {
         instance_revisions_ = revisions;
         instances_.upload(world.instance_rows);
         moved_instances_ = true;
+    }
+    if (world.material_revision != material_revision_) {
+        material_revision_ = world.material_revision;
+        materials_.upload(world.material_rows);
     }
     has_moved_ = has_moved_ || moved_instances_ || !moved_meshes_.empty();
     lights_.update(world.lights);

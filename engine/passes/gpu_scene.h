@@ -70,6 +70,7 @@ class GpuScene {
 
     std::vector<std::uint64_t> mesh_revisions_;
     std::vector<std::uint64_t> instance_revisions_;
+    std::uint64_t material_revision_;
     // Meshes that deform keep the last frame's vertices behind all others; INVALID_INDEX for the rest.
     std::vector<std::uint32_t> previous_first_vertex_;
     std::vector<std::uint32_t> moved_meshes_;  // since the last frame

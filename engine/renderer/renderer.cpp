@@ -39,7 +39,8 @@ Renderer::Renderer(World& world, const RayTracer& tracer, int width_px, int heig
       plan_(make_plan(world, planned_history_)),
       extra_defines_(std::move(extra_defines)),
       defines_(join(plan_.defines(), extra_defines_)),
-      planned_lights_(world.lights.revision),
+      planned_lights_(world.lights.order_revision),
+      planned_materials_(world.material_revision),
       gpu_scene_(world),
       frame_block_("frame/block", sizeof(FrameBlock), BufferUse::DYNAMIC),
       counters_("frame/counters", COUNTER_COUNT * sizeof(std::uint32_t), BufferUse::DEVICE),
@@ -57,8 +58,11 @@ void Renderer::update() {
 void Renderer::update_plan() {
     const PlanHistory history{world_.is_animated || gpu_scene_.has_moved(),
                               world_.is_animated || gpu_scene_.lights().have_changed()};
-    if (world_.lights.revision == planned_lights_ && history == planned_history_) return;
-    planned_lights_ = world_.lights.revision;
+    if (world_.lights.order_revision == planned_lights_ && world_.material_revision == planned_materials_ &&
+        history == planned_history_)
+        return;
+    planned_lights_ = world_.lights.order_revision;
+    planned_materials_ = world_.material_revision;
     planned_history_ = history;
     plan_ = make_plan(world_, history);
     defines_ = join(plan_.defines(), extra_defines_);

@@ -81,7 +81,8 @@ class Renderer {
     FramePlan plan_;
     std::vector<std::string> extra_defines_;
     std::vector<std::string> defines_;
-    std::uint64_t planned_lights_;  // revision of the lights that the plan saw
+    std::uint64_t planned_lights_;  // order of the lights that the plan saw
+    std::uint64_t planned_materials_;
     ProgramLibrary programs_;
     GpuScene gpu_scene_;
     GpuLightTree gpu_light_tree_;
