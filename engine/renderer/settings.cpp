@@ -125,6 +125,8 @@ const std::vector<Setting>& setting_table() {
                &S::permute),
         toggle("mirror", "restir: neighbours outside of the picture are mirrored into it instead of left out",
                &S::mirror),
+        choose("debug-view", "Show the visibility of the chosen samples instead of light", &S::debug_view,
+               {"none", "visibility"}),
     };
     return table;
 }

@@ -85,7 +85,8 @@ std::vector<Defines> list_own_variants(const std::string& pass) {
                 {"TARN_SELECT_POWER"},
                 {"TARN_SELECT_TILES", "TARN_BRDF_CANDIDATE"},
                 {"TARN_SELECT_TREE"}};
-    if (pass == "direct/shade") return {{}, {"TARN_RESERVOIR_VISIBILITY", "TARN_ONE_CHANNEL", "TARN_ADD"}};
+    if (pass == "direct/shade")
+        return {{}, {"TARN_RESERVOIR_VISIBILITY", "TARN_ONE_CHANNEL", "TARN_ADD"}, {"TARN_SHOW_VISIBILITY"}};
     if (is_reuse(pass)) return {{"TARN_MIS=2", "TARN_MIS_VISIBILITY=1", "TARN_SAMPLE_VISIBILITY=0"}};
     if (pass == "gbuffer/raster") return {{}, {"TARN_COVERAGE"}};
     return {{}};

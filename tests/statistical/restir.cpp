@@ -119,9 +119,16 @@ class Restir : public DirectLightTest {
         for (const auto& [name, value] : renderer.read_counters()) EXPECT_EQ(value, 0u) << name;
     }
 
+    // Frame 64 of the two large scenes is looked at for one mode, and for all where more seeds are asked for.
+    int last_frame_of(Mis mis) const {
+        const bool is_small = case_->name() == "cornell" || case_->name() == "VeachMIS";
+        const bool is_asked = std::getenv("TARN_TEST_SEEDS") != nullptr;
+        return LATER_FRAMES[is_small || is_asked || mis == Mis::PAIRWISE ? 1 : 0];
+    }
+
     void expect_all_pass(Mis mis, const std::string& name) {
         EXPECT_TRUE(run_first(unbiased_settings(mis), name).passes);
-        for (const TileTest& test : run_still(unbiased_settings(mis), name, LATER_FRAMES[1])) {
+        for (const TileTest& test : run_still(unbiased_settings(mis), name, last_frame_of(mis))) {
             EXPECT_TRUE(test.passes) << name;
         }
     }
@@ -149,7 +156,7 @@ TEST_P(Restir, MisWeightsSumToOneInEveryPixel) {
         FrameInput input;
         input.camera = case_->camera();
         input.settings = unbiased_settings(mis);
-        for (input.frame = 0; input.frame < 8; ++input.frame) renderer.render(input);
+        for (input.frame = 0; input.frame < 3; ++input.frame) renderer.render(input);
         EXPECT_EQ(renderer.read_counters().at("mis_sums"), 0u) << "mis " << int(mis);
     }
 }

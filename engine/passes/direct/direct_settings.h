@@ -22,6 +22,9 @@ enum class Mis { SHARE, COUNT, BALANCE, PAIRWISE };
 // How the visibility of the sample that lights a pixel is known; see lib/reuse.glsl.
 enum class SampleVisibility { TRACE, REUSE, AVERAGED };
 
+// What the picture shows instead of light.
+enum class DebugView { NONE, VISIBILITY };
+
 struct DirectSettings {
     DirectMode direct = DirectMode::RIS;
     LightSelection light_selection = LightSelection::POWER;
@@ -40,6 +43,7 @@ struct DirectSettings {
     int age_cap = 0;
     bool permute = false;
     bool mirror = false;
+    DebugView debug_view = DebugView::NONE;
 
     bool resamples() const { return direct == DirectMode::RIS || direct == DirectMode::RESTIR; }
     // How candidates find their lights in this mode.

@@ -16,6 +16,7 @@ void DirectShadePass::record(const DirectFrame& direct, const RowBuffer& reservo
     if (answers == nullptr) defines.emplace_back("TARN_RESERVOIR_VISIBILITY");
     if (!first) defines.emplace_back("TARN_ADD");
     if (direct.settings.per_channel) defines.emplace_back("TARN_ONE_CHANNEL");
+    if (direct.settings.debug_view == DebugView::VISIBILITY) defines.emplace_back("TARN_SHOW_VISIBILITY");
     const Program& program = programs_.compute("direct/shade", defines);
     program.set("target_weights", direct.target_weights);
     PassRecorder pass = direct.frame.pass("direct/shade");

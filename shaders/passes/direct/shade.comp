@@ -1,6 +1,7 @@
 // Lights each pixel with its reservoir's sample: emission + BRDF x Le x G x visibility x contribution weight.
 //
 // TARN_RESERVOIR_VISIBILITY: visibility is what the reservoir knows; else a ray was traced for it.
+// TARN_SHOW_VISIBILITY: the visibility term itself instead of light, as figure 1 of Tokuyoshi's supplement shows it.
 // TARN_ONE_CHANNEL: the sample stands for the channel of `target_weights` alone. TARN_ADD: to what is there already.
 #include "lib/scene_buffers.glsl"
 #include "lib/frame.glsl"
@@ -26,14 +27,15 @@ vec3 direct_light(ivec2 pixel, Receiver receiver) {
     int row = int(pixel_index(pixel) * RESERVOIR_ROWS);
     Reservoir reservoir = unpack_reservoir(texelFetch(reservoirs, row), texelFetch(reservoirs, row + 1));
     float visible = load_visibility(pixel, reservoir);
-#ifdef TARN_SHOW_VISIBILITY
-    return reservoir.contribution_weight > 0.0f ? vec3(visible) : vec3(0.0f);
-#endif
     vec3 reflected = reflect_at(receiver, load_incident_light(reservoir.chosen, receiver.point.position));
+    reflected *= reservoir.contribution_weight * visible;
+#ifdef TARN_SHOW_VISIBILITY
+    reflected = vec3(reservoir.contribution_weight > 0.0f ? visible : 0.0f);
+#endif
 #ifdef TARN_ONE_CHANNEL
     reflected *= target_weights;
 #endif
-    return reflected * (reservoir.contribution_weight * visible);
+    return reflected;
 }
 
 void main() {
