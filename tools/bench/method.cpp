@@ -23,6 +23,7 @@ constexpr int RESTIR_WARM_UP_FRAMES = 20;
 constexpr MethodRow METHODS[] = {
     {"uniform", "one light at random, one shadow ray", "direct=uniform", "", 0},
     {"power", "one light by its power, one shadow ray", "direct=power", "", 0},
+    {"light-tree", "one light by a walk down the light tree, one shadow ray", "direct=light-tree", "", 0},
     {"ris", "the best of several lights by power and reflection, one shadow ray", "direct=ris", "candidates",
      0},
     {"restir-fast", "ReSTIR, preset fast: some bias, least noise for its time", "preset=fast", "candidates",
