@@ -76,6 +76,12 @@ Setting number(std::string name, std::string unit, std::string sentence, T Direc
             [member](RenderSettings& s, double v) { s.*member = T(v); }};
 }
 
+// The same row, hidden where `applies` does not hold.
+Setting where(bool (DirectSettings::*applies)() const, Setting setting) {
+    setting.applies = [applies](const RenderSettings& s) { return (s.*applies)(); };
+    return setting;
+}
+
 }  // namespace
 
 const std::vector<Setting>& setting_table() {
@@ -86,45 +92,62 @@ const std::vector<Setting>& setting_table() {
                "RIS over "
                "many candidates, or RIS with samples reused over time and neighbours",
                &S::direct, {"uniform", "power", "light-tree", "ris", "restir"}),
-        choose("light-selection",
-               "How a candidate of ris and restir finds its light; tiles: by power, drawn in advance",
-               &S::light_selection, {"uniform", "power", "tiles", "tree"}),
-        number("candidates", "", "Light candidates a pixel that ris and restir choose from", &S::candidates,
-               1, 1024),
-        toggle("brdf-candidate",
-               "One candidate more from a ray along the BRDF, joined by MIS: for mirrors and glossy floors",
-               &S::brdf_candidate),
-        choose("reuse", "restir: whose samples are reused", &S::reuse,
-               {"none", "temporal", "spatial", "spatiotemporal"}),
-        number("spatial-iterations", "", "restir: steps of reuse over neighbours", &S::spatial_iterations, 1,
-               4),
-        number("neighbours", "", "restir: neighbours a step", &S::neighbours, 1, 9),
-        number("radius", "px", "restir: distance of neighbours at most", &S::radius_px, 1, 100),
-        choose(
-            "mis",
-            "restir: weights of reused samples: 1/M, 1/Z, generalized balance heuristic, pairwise defensive",
-            &S::mis, {"constant", "count", "balance", "pairwise"}),
-        toggle("mis-visibility",
-               "restir: trace visibility in the weights, which makes count, balance and pairwise unbiased",
-               &S::mis_visibility),
-        choose("visibility",
-               "restir: how the chosen sample's visibility is known: traced at the end, reused with it, or "
-               "averaged "
-               "over all samples of each step",
-               &S::visibility, {"trace", "reuse", "averaged"}),
-        toggle("discard-occluded", "restir: drop fresh samples that are occluded before anyone reuses them",
-               &S::discard_occluded),
+        where(&S::resamples,
+              choose("light-selection",
+                     "How a candidate of ris and restir finds its light; tiles: by power, drawn in advance",
+                     &S::light_selection, {"uniform", "power", "tiles", "tree"})),
+        where(&S::resamples,
+              number("candidates", "", "Light candidates a pixel that ris and restir choose from",
+                     &S::candidates, 1, 1024)),
+        where(
+            &S::resamples,
+            toggle(
+                "brdf-candidate",
+                "One candidate more from a ray along the BRDF, joined by MIS: for mirrors and glossy floors",
+                &S::brdf_candidate)),
+        where(&S::uses_restir, choose("reuse", "restir: whose samples are reused", &S::reuse,
+                                      {"none", "temporal", "spatial", "spatiotemporal"})),
+        where(&S::reuses_space, number("spatial-iterations", "", "restir: steps of reuse over neighbours",
+                                       &S::spatial_iterations, 1, 4)),
+        where(&S::reuses_space, number("neighbours", "", "restir: neighbours a step", &S::neighbours, 1, 9)),
+        where(&S::reuses_space,
+              number("radius", "px", "restir: distance of neighbours at most", &S::radius_px, 1, 100)),
+        where(&S::reuses, choose("mis",
+                                 "restir: weights of reused samples: 1/M, 1/Z, generalized balance "
+                                 "heuristic, pairwise defensive",
+                                 &S::mis, {"constant", "count", "balance", "pairwise"})),
+        where(&S::reuses,
+              toggle(
+                  "mis-visibility",
+                  "restir: trace visibility in the weights, which makes count, balance and pairwise unbiased",
+                  &S::mis_visibility)),
+        where(
+            &S::reuses,
+            choose(
+                "visibility",
+                "restir: how the chosen sample's visibility is known: traced at the end, reused with it, or "
+                "averaged "
+                "over all samples of each step",
+                &S::visibility, {"trace", "reuse", "averaged"})),
+        where(&S::reuses, toggle("discard-occluded",
+                                 "restir: drop fresh samples that are occluded before anyone reuses them",
+                                 &S::discard_occluded)),
         toggle("per-channel",
                "A sample for each of red, green and blue: no colour noise or leak, three times the cost",
                &S::per_channel),
-        number("confidence-cap", "x",
-               "restir: confidence of the past at most, as a multiple of the fresh sample's",
-               &S::confidence_cap, 1, 1000),
-        number("age-cap", "frames", "restir: drop samples older than this; 0: never", &S::age_cap, 0, 1000),
-        toggle("permute", "restir: neighbours swap their histories, so that fewer share a sample",
-               &S::permute),
-        toggle("mirror", "restir: neighbours outside of the picture are mirrored into it instead of left out",
-               &S::mirror),
+        where(&S::reuses_time,
+              number("confidence-cap", "x",
+                     "restir: confidence of the past at most, as a multiple of the fresh sample's",
+                     &S::confidence_cap, 1, 1000)),
+        where(&S::reuses_time, number("age-cap", "frames", "restir: drop samples older than this; 0: never",
+                                      &S::age_cap, 0, 1000)),
+        where(&S::reuses_time,
+              toggle("permute", "restir: neighbours swap their histories, so that fewer share a sample",
+                     &S::permute)),
+        where(&S::reuses_space,
+              toggle("mirror",
+                     "restir: neighbours outside of the picture are mirrored into it instead of left out",
+                     &S::mirror)),
         choose("debug-view", "Show the visibility of the chosen samples instead of light", &S::debug_view,
                {"none", "visibility"}),
     };

@@ -24,6 +24,8 @@ struct Setting {
     bool is_whole = true;              // a number without fraction
     std::function<double(const RenderSettings&)> get;
     std::function<void(RenderSettings&, double)> set;
+    // Whether it changes anything beside these settings; empty: always. The panel hides what does not.
+    std::function<bool(const RenderSettings&)> applies = {};
 
     // Reads a value as a user writes it. Throws Error that names the setting and what it accepts.
     void parse(RenderSettings& settings, const std::string& text) const;

@@ -31,6 +31,7 @@ void draw_number(const Setting& setting, RenderSettings& settings) {
 
 void draw_settings(RenderSettings& settings) {
     for (const Setting& setting : setting_table()) {
+        if (setting.applies && !setting.applies(settings)) continue;
         if (setting.choices.empty()) {
             draw_number(setting, settings);
         } else {

@@ -116,7 +116,7 @@ xdotool key Tab
 wait_for "Tab brings it back" panel_is_back
 
 choose 81 0 'direct=uniform'
-choose 147 0 'view=radiance'
+choose 169 0 'view=radiance'
 look with_radiance
 wait_for "the picture of light" shows_something "$picture"
 
