@@ -17,7 +17,7 @@ namespace {
 constexpr int WIDTH_PX = 64;
 constexpr int HEIGHT_PX = 48;
 constexpr int TILE_PX = 16;
-constexpr int SEEDS = 32;
+constexpr int SEEDS = 24;
 constexpr double SIGNIFICANCE = 0.01;
 constexpr int WARM_UP_FRAMES = 12;
 constexpr int LATER_FRAMES = 30;
