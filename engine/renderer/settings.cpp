@@ -202,8 +202,11 @@ RenderSettings student_settings() {
 
 const std::vector<Preset>& preset_table() {
     static const std::vector<Preset> table = {
-        {"fast", "two rays a pixel, visibility reused: some bias, least noise for its time", fast_settings()},
-        {"balanced", "two rays a pixel, the chosen sample traced: darkens near shadow edges",
+        {"fast", "two shadow rays a pixel, visibility averaged: some bias, least noise for its time",
+         fast_settings()},
+        {"balanced",
+         "two shadow rays and one along the BRDF a pixel, the chosen sample traced: darkens near shadow "
+         "edges",
          balanced_settings()},
         {"unbiased", "rays in all MIS weights: no bias where geometry stands still", unbiased_settings()},
         {"student", "32 random lights, 5 neighbours in 10 px, 1/M weights: the simplest form, for comparison",

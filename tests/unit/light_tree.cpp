@@ -1,69 +1,20 @@
-// Drawing lights by the tree: probabilities by enumeration, draws by chi-square, bounds by looking at every
-// light below every node, and no light that could contribute left out.
+// Drawing lights by the tree: probabilities by enumeration, draws by chi-square, and no light that
+// could contribute left out.
 #include "world/light_tree.h"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "support/histogram.h"
-#include "support/light_scenes.h"
+#include "support/light_tree_cases.h"
 #include "world/scene_access.h"
 
 namespace tarn {
 namespace {
 
-using test::Draws;
-using test::LightScene;
-using test::SIGNIFICANCE;
-
-// A place on a surface; all spaces are relative to the world's origin.
-struct ShadingPoint {
-    vec3 position;
-    vec3 normal;
-};
-
-World build_lit_world(const Scene& scene) {
-    World world = build_world(scene);
-    update_light_tree(world);
-    return world;
-}
-
-World build_random_world(std::uint64_t seed, int count, bool directional = true) {
-    LightScene lights(seed);
-    lights.add_lights(count, directional);
-    return build_lit_world(lights.scene());
-}
-
-// A point anywhere, on a light, or a hair beside one.
-ShadingPoint draw_point(const World& world, Draws& draws) {
-    ShadingPoint point{draws.unit_vector() * float(draws.uniform(0.0, 12.0)), draws.unit_vector()};
-    const std::uint32_t choice = draws.bits() % 4u;
-    if (choice > 1u || world.lights.count == 0) return point;
-    SceneAccess access(world);
-    const Light light = access.load_light(draws.bits() % world.lights.count);
-    point.position = access.is_triangle(light) ? triangle_point(light, vec2(0.3f, 0.3f)) : light.position;
-    if (choice == 1u) point.position += draws.unit_vector() * 1e-4f;
-    return point;
-}
-
-std::vector<float> list_pmf(const World& world, const ShadingPoint& point) {
-    SceneAccess access(world);
-    std::vector<float> pmf(world.lights.count);
-    for (std::uint32_t i = 0; i < world.lights.count; ++i) {
-        pmf[i] = access.light_tree_pmf(i, point.position, point.normal);
-    }
-    return pmf;
-}
-
-double sum_of(const std::vector<float>& values) {
-    double sum = 0.0;
-    for (const float value : values) sum += value;
-    return sum;
-}
+using namespace test;
 
 // ---- Probabilities
 // --------------------------------------------------------------------------------------------------
@@ -78,13 +29,13 @@ TEST(LightTree, ProbabilitiesSumToOneAtAnyPoint) {
     }
 }
 
-DiscreteSample draw_light(SceneAccess& access, const ShadingPoint& point, std::uint32_t index) {
+DiscreteSample draw_light(SceneAccess& access, const Receiver& point, std::uint32_t index) {
     return access.choose_light_by_tree(random_bits4({index, 3u, 7u}, DIMENSION_CANDIDATE), point.position,
                                        point.normal);
 }
 
 // p value of "draws at this point follow `pmf`".
-double draws_p_value(const World& world, const ShadingPoint& point, const std::vector<float>& pmf) {
+double draws_p_value(const World& world, const Receiver& point, const std::vector<float>& pmf) {
     constexpr std::uint32_t DRAW_COUNT = 200'000;
     SceneAccess access(world);
     std::vector<double> observed(pmf.size()), expected(pmf.size());
@@ -99,14 +50,14 @@ TEST(LightTree, DrawsFollowTheirProbabilities) {
     const World world = build_random_world(5, 200);
     Draws draws(2);
     for (int i = 0; i < POINT_COUNT; ++i) {
-        const ShadingPoint point = draw_point(world, draws);
+        const Receiver point = draw_point(world, draws);
         EXPECT_GT(draws_p_value(world, point, list_pmf(world, point)),
                   sidak_threshold(SIGNIFICANCE, POINT_COUNT));
     }
 }
 
 // The light's way down, and a wrong copy of its probability that forgets what was decided at one level.
-float pmf_without_level(const World& world, std::uint32_t light, const ShadingPoint& point, int forgotten) {
+float pmf_without_level(const World& world, std::uint32_t light, const Receiver& point, int forgotten) {
     SceneAccess access(world);
     const LightTree& tree = world.light_tree;
     float pmf = 1.0f;
@@ -122,7 +73,7 @@ float pmf_without_level(const World& world, std::uint32_t light, const ShadingPo
 TEST(LightTree, NegativeControlAProbabilityWithoutOneLevelFails) {
     const World world = build_random_world(5, 200, false);
     Draws draws(2);
-    const ShadingPoint point{draws.unit_vector(), draws.unit_vector()};
+    const Receiver point{draws.unit_vector(), draws.unit_vector()};
     for (const int forgotten : {-1, 0, 2}) {
         std::vector<float> pmf(world.lights.count);
         for (std::uint32_t i = 0; i < pmf.size(); ++i) pmf[i] = pmf_without_level(world, i, point, forgotten);
@@ -141,7 +92,7 @@ TEST(LightTree, ADrawReportsTheProbabilityThatItsLightHas) {
     SceneAccess access(world);
     Draws draws(3);
     for (std::uint32_t i = 0; i < 5000; ++i) {
-        const ShadingPoint point = draw_point(world, draws);
+        const Receiver point = draw_point(world, draws);
         const DiscreteSample drawn = draw_light(access, point, i);
         ASSERT_LT(drawn.index, world.lights.count);
         ASSERT_GT(drawn.pmf, 0.0f);
@@ -153,7 +104,7 @@ TEST(LightTree, ADrawReportsTheProbabilityThatItsLightHas) {
 // ---------------------------------------------------------------------------------------------
 
 // What a light sends to the front of a surface from a place that u chooses.
-float irradiance_from(SceneAccess& access, std::uint32_t light, vec2 u, const ShadingPoint& point) {
+float irradiance_from(SceneAccess& access, std::uint32_t light, vec2 u, const Receiver& point) {
     LightSample sample;
     sample.light = light;
     sample.uv = sample_triangle(u);
@@ -168,7 +119,7 @@ int count_lost_lights(const World& world, std::uint64_t seed, int& seen) {
     Draws draws(seed);
     int lost = 0;
     for (int i = 0; i < 60; ++i) {
-        const ShadingPoint point = draw_point(world, draws);
+        const Receiver point = draw_point(world, draws);
         const std::vector<float> pmf = list_pmf(world, point);
         for (std::uint32_t light = 0; light < world.lights.count; ++light) {
             bool arrives = false;
@@ -231,7 +182,7 @@ TEST(LightTree, LightsAtTheHorizonAreNotLostToRounding) {
             const float tilt = float(std::pow(10.0, draws.uniform(-9.0, -3.0)));
             const vec3 away =
                 normalize(vec3(draws.uniform_float() - 0.5f, tilt, draws.uniform_float() - 0.5f));
-            ShadingPoint point{place + away * distance, vec3(0.0f)};
+            Receiver point{place + away * distance, vec3(0.0f)};
             point.normal = normalize(cross(away, draws.unit_vector()) - away * tilt);
             if (!(irradiance_from(access, light, vec2(0.5f), point) > 0.0f)) continue;
             ++seen;
@@ -247,7 +198,7 @@ TEST(LightTree, LightsAtTheHorizonAreNotLostToRounding) {
 
 // Moments of irradiance / pmf with lights drawn by the tree, each light seen from the middle of its surface.
 template <class Draw>
-RunningMoments estimate(SceneAccess& access, const ShadingPoint& point, const Draw& draw) {
+RunningMoments estimate(SceneAccess& access, const Receiver& point, const Draw& draw) {
     RunningMoments moments;
     for (std::uint32_t i = 0; i < 100'000; ++i) {
         const DiscreteSample light = draw(i);
@@ -256,7 +207,7 @@ RunningMoments estimate(SceneAccess& access, const ShadingPoint& point, const Dr
     return moments;
 }
 
-double enumerate_irradiance(SceneAccess& access, const ShadingPoint& point) {
+double enumerate_irradiance(SceneAccess& access, const Receiver& point) {
     double sum = 0.0;
     for (std::uint32_t light = 0; light < access.get_light_count(); ++light) {
         sum += irradiance_from(access, light, vec2(0.5f), point);
@@ -265,7 +216,7 @@ double enumerate_irradiance(SceneAccess& access, const ShadingPoint& point) {
 }
 
 // Variance of irradiance / pmf over all lights. (What was drawn cannot tell it: the rarest lights decide.)
-double enumerate_variance(SceneAccess& access, const ShadingPoint& point) {
+double enumerate_variance(SceneAccess& access, const Receiver& point) {
     double sum = 0.0;
     for (std::uint32_t light = 0; light < access.get_light_count(); ++light) {
         const double value = irradiance_from(access, light, vec2(0.5f), point);
@@ -280,7 +231,7 @@ TEST(LightTree, TheMeanOfItsEstimatesIsTheSumOverAllLights) {
     SceneAccess access(world);
     Draws draws(5);
     for (int i = 0; i < POINT_COUNT; ++i) {
-        const ShadingPoint point{vec3(draws.unit_vector()) * 3.0f, draws.unit_vector()};
+        const Receiver point{vec3(draws.unit_vector()) * 3.0f, draws.unit_vector()};
         const RunningMoments moments =
             estimate(access, point, [&](std::uint32_t index) { return draw_light(access, point, index); });
         const double variance = enumerate_variance(access, point) / double(moments.count());
@@ -301,7 +252,7 @@ TEST(LightTree, InAHallOfLampsItsVarianceIsAQuarterOfThatByPowerAtMost) {
     toy.add_instance(toy.add_mesh(lamp, corners));
     const World world = build_lit_world(toy.scene);
     SceneAccess access(world);
-    const ShadingPoint point{vec3(0.3f, -2.0f, 0.2f), vec3(0.0f, 1.0f, 0.0f)};
+    const Receiver point{vec3(0.3f, -2.0f, 0.2f), vec3(0.0f, 1.0f, 0.0f)};
     const RunningMoments by_tree =
         estimate(access, point, [&](std::uint32_t index) { return draw_light(access, point, index); });
     const RunningMoments by_power = estimate(access, point, [&](std::uint32_t index) {
@@ -318,7 +269,7 @@ TEST(LightTree, ACandidatesDensityIsThatOfItsLightTimesOneOverItsArea) {
     const World world = build_random_world(9, 40);
     SceneAccess access(world);
     Draws draws(6);
-    const ShadingPoint point = draw_point(world, draws);
+    const Receiver point = draw_point(world, draws);
     for (std::uint32_t i = 0; i < 1000; ++i) {
         const uvec4 bits = random_bits4({i, 0u, 1u}, DIMENSION_CANDIDATE);
         const auto candidate = access.draw_light_by_tree(bits, point.position, point.normal);
@@ -330,13 +281,6 @@ TEST(LightTree, ACandidatesDensityIsThatOfItsLightTimesOneOverItsArea) {
 
 // ---- Odd tables
 // -------------------------------------------------------------------------------------------------------
-
-void expect_sums_to_one(const World& world) {
-    Draws draws(7);
-    for (int i = 0; i < 20; ++i) {
-        EXPECT_NEAR(sum_of(list_pmf(world, draw_point(world, draws))), 1.0, 1e-5);
-    }
-}
 
 TEST(LightTree, WithoutLightsThereIsNothingToDraw) {
     const World world = build_lit_world(ToyScene().scene);
@@ -417,168 +361,6 @@ TEST(LightTree, IntensitiesOverManyDecadesAllCount) {
     expect_sums_to_one(world);
     for (const float p : list_pmf(world, {vec3(3.0f, -1.0f, 0.0f), vec3(0.0f, 1.0f, 0.0f)}))
         EXPECT_GT(p, 0.0f);
-}
-
-// ---- Bounds, built and fitted
-// -----------------------------------------------------------------------------------------
-
-struct Violations {
-    int place = 0, normal = 0, intensity = 0;
-};
-
-// Whether the light's normal is outside of the node's cone by more than a tenth of what draws allow for.
-bool is_outside_cone(const LightTreeNode& node, const Light& light) {
-    glm::dvec3 normal = cross(glm::dvec3(light.edge1), glm::dvec3(light.edge2));
-    if ((light.flags & LIGHT_MIRRORED) != 0u) normal = -normal;
-    const glm::dvec3 axis(node.axis);
-    double cosine = dot(axis, normal);
-    if ((node.link & LIGHT_TREE_TWO_SIDED) != 0u) cosine = std::abs(cosine);
-    const double angle_rad = std::atan2(glm::length(glm::cross(axis, normal)), cosine);
-    return angle_rad > std::acos(double(node.cos_normals)) + 0.1 * LIGHT_TREE_SLACK;
-}
-
-// Walks down and compares each node with every light below it; returns those lights.
-std::vector<std::uint32_t> check_node(const World& world, std::uint32_t index, Violations& violations) {
-    SceneAccess access(world);
-    const LightTreeNode node = access.load_light_tree_node(index);
-    const std::uint32_t link = node.link & LIGHT_TREE_INDEX_MASK;
-    std::vector<std::uint32_t> below;
-    if ((node.link & LIGHT_TREE_LEAF) != 0u) {
-        below.push_back(link);
-    } else {
-        below = check_node(world, link, violations);
-        const std::vector<std::uint32_t> right = check_node(world, link + 1, violations);
-        below.insert(below.end(), right.begin(), right.end());
-    }
-    double intensity = 0.0;
-    for (const std::uint32_t i : below) {
-        const Light light = access.load_light(i);
-        intensity += bound_light(light, world.lights.powers[i]).intensity;
-        const bool triangle = access.is_triangle(light);
-        for (const vec2 corner : {vec2(0, 0), vec2(1, 0), vec2(0, 1)}) {
-            const vec3 place = triangle ? triangle_point(light, corner) : light.position;
-            violations.place += length(place - node.centre) > node.radius * 1.00001f + 1e-6f;
-        }
-        violations.normal += triangle && is_outside_cone(node, light);
-    }
-    violations.intensity += std::abs(node.intensity - intensity) > 1e-4 * intensity;
-    return below;
-}
-
-void expect_sound(const World& world) {
-    Violations violations;
-    std::vector<std::uint32_t> lights = check_node(world, 0, violations);
-    EXPECT_EQ(violations.place, 0);
-    EXPECT_EQ(violations.normal, 0);
-    EXPECT_EQ(violations.intensity, 0);
-    std::sort(lights.begin(), lights.end());
-    EXPECT_EQ(std::adjacent_find(lights.begin(), lights.end()), lights.end()) << "a light is there twice";
-    std::size_t members = 0;
-    for (const std::uint32_t leaf : world.light_tree.leaves) members += leaf != INVALID_INDEX;
-    EXPECT_EQ(lights.size(), members);
-}
-
-TEST(LightTree, EachNodeHoldsAllThatIsBelowIt) {
-    for (const int count : {4, 8, 60, 1000}) expect_sound(build_random_world(std::uint64_t(count), count));
-}
-
-TEST(LightTree, TheTreeDoesNotDependOnThreads) {
-    const World all = build_random_world(12, 6000);
-    const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-    EXPECT_EQ(build_random_world(12, 6000).light_tree.rows, all.light_tree.rows);
-}
-
-// Moves some nodes of the scene, which is then edited.
-void move_some(LightScene& lights, Draws& draws) {
-    for (Node& node : lights.scene().nodes) {
-        if (draws.uniform() < 0.2) (*node.matrix)[3] += glm::dvec4(glm::dvec3(draws.unit_vector()), 0.0);
-    }
-    ++lights.scene().revision;
-}
-
-LightScene make_movable() {
-    LightScene lights(13);
-    for (int i = 0; i < 40; ++i) lights.add_triangles(20);
-    for (int i = 0; i < 20; ++i) lights.add_punctual(i % 2 == 0 ? LightKind::POINT : LightKind::SPOT);
-    return lights;
-}
-
-TEST(LightTree, AFittedTreeHoldsWhatMovedAndIsBuiltNoMore) {
-    LightScene lights = make_movable();
-    World world = build_lit_world(lights.scene());
-    Draws draws(8);
-    for (int step = 0; step < 10; ++step) {
-        const LightTree before = world.light_tree;
-        move_some(lights, draws);
-        update_world(world, lights.scene(), -1.0);
-        update_light_tree(world);
-        EXPECT_EQ(world.light_tree.structure_revision, before.structure_revision);
-        EXPECT_EQ(world.light_tree.revision, before.revision + 1);
-        EXPECT_EQ(world.light_tree.leaves, before.leaves);
-        expect_sound(world);
-        expect_sums_to_one(world);
-        // The boxes, if not their order, are those of a tree built anew.
-        const World fresh = build_lit_world(lights.scene());
-        const vec3 shift = vec3(fresh.origin_ws - world.origin_ws);
-        const LightBounds &fitted = world.light_tree.bounds[0], &built = fresh.light_tree.bounds[0];
-        EXPECT_LT(length(fitted.lower - built.lower - shift), 1e-5f);
-        EXPECT_LT(length(fitted.upper - built.upper - shift), 1e-5f);
-    }
-}
-
-TEST(LightTree, OnlyTheRowsThatItNamesWereWritten) {
-    LightScene lights = make_movable();
-    World world = build_lit_world(lights.scene());
-    std::vector<glm::uvec4> copy = world.light_tree.rows;
-    Draws draws(9);
-    (*lights.scene().nodes[5].matrix)[3].y += 0.5;
-    ++lights.scene().revision;
-    update_world(world, lights.scene(), -1.0);
-    update_light_tree(world);
-    std::size_t written = 0;
-    for (const IndexRange& range : world.light_tree.changed) {
-        for (std::uint32_t row = range.first; row < range.last; ++row) copy[row] = world.light_tree.rows[row];
-        written += range.last - range.first;
-    }
-    EXPECT_EQ(copy, world.light_tree.rows);
-    EXPECT_GT(written, 0u);
-    EXPECT_LT(written, world.light_tree.rows.size());
-    update_light_tree(world);
-    EXPECT_TRUE(world.light_tree.changed.empty());
-}
-
-TEST(LightTree, UpdatesThatItMissedAreMadeUpFor) {
-    LightScene lights = make_movable();
-    World every = build_lit_world(lights.scene());
-    World last = every;
-    Draws draws(10);
-    for (int step = 0; step < 3; ++step) {
-        move_some(lights, draws);
-        update_world(every, lights.scene(), -1.0);
-        update_light_tree(every);
-        update_world(last, lights.scene(), -1.0);
-    }
-    update_light_tree(last);
-    EXPECT_EQ(last.light_tree.rows, every.light_tree.rows);
-}
-
-TEST(LightTree, ItIsBuiltAnewWhereLightsComeAndGo) {
-    LightScene lights = make_movable();
-    World world = build_lit_world(lights.scene());
-    const std::uint64_t before = world.light_tree.structure_revision;
-    lights.scene().light_nodes.erase(lights.scene().light_nodes.begin() + 3);
-    ++lights.scene().revision;
-    update_world(world, lights.scene(), -1.0);
-    update_light_tree(world);
-    EXPECT_EQ(world.light_tree.structure_revision, before + 1);
-    expect_sound(world);
-    expect_sums_to_one(world);
-    lights.scene().lights[5].kind = LightKind::DIRECTIONAL;  // the same light leaves the tree
-    ++lights.scene().revision;
-    update_world(world, lights.scene(), -1.0);
-    update_light_tree(world);
-    expect_sound(world);
-    expect_sums_to_one(world);
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
 # The table of lights as the scene moves and is edited, and the tree over it.
 tarn_test(light_updates LABEL unit LIBRARIES tarn_world)
-tarn_test(light_tree LABEL unit LIBRARIES tarn_world TBB::tbb)
+tarn_test(light_tree LABEL unit LIBRARIES tarn_world)
+tarn_test(light_tree_bounds LABEL unit LIBRARIES tarn_world TBB::tbb)

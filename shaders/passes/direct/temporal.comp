@@ -74,9 +74,7 @@ Reservoir load_past(ivec2 pixel, float fresh_confidence) {
         stale = true;
     }
     if (stale) return empty_reservoir();
-#ifndef TARN_PLANT_SKIP_CONFIDENCE_CAP
     past.confidence = min(past.confidence, confidence_cap * fresh_confidence);
-#endif
     return past;
 }
 

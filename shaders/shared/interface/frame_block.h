@@ -16,7 +16,7 @@ struct FrameBlock {
     vec4 frame_camera_up;
     vec4 frame_camera_forward;     // w = near (perspective) or depth range (orthographic), metres
     uvec4 frame_size;              // width, height in pixels; frame number; seed
-    uvec4 frame_lights;            // light count; environment width, height; RIS candidates
+    uvec4 frame_lights;            // light count; environment width, height; 0
     vec4 frame_previous_position;  // the last frame's camera, as above
     vec4 frame_previous_right;
     vec4 frame_previous_up;
