@@ -2,7 +2,11 @@
 // curve.
 #pragma once
 
+#include <cmath>
+#include <cstddef>
 #include <span>
+
+#include "core/statistics.h"
 
 namespace tarn {
 
@@ -15,6 +19,18 @@ struct Estimate {
 };
 
 Estimate estimate_mean(std::span<const double> values);
+
+// Any statistic of `count` seeds with its 95 % interval by the jackknife: `statistic(k)` computes it without
+// seed k, `statistic(count)` with all of them. At least two seeds.
+template <class Statistic>
+Estimate estimate_jackknife(std::size_t count, const Statistic& statistic) {
+    RunningMoments left_out;
+    for (std::size_t k = 0; k < count; ++k) left_out.add(statistic(k));
+    const double error = double(count - 1) * std::sqrt(left_out.variance_of_mean());
+    const double reach = student_t_quantile(0.975, double(count - 1)) * error;
+    const double value = statistic(count);
+    return {value, value - reach, value + reach};
+}
 
 // The exponent s of y = c x^s by least squares over log x and log y. Points that are not positive and finite
 // are passed over; NaN where fewer than two different x remain.

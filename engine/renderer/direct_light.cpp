@@ -8,6 +8,8 @@ namespace tarn {
 namespace {
 
 constexpr glm::vec3 LUMINANCE_WEIGHTS(0.2126f, 0.7152f, 0.0722f);
+// Each sample of a pixel meets partly covered surfaces with numbers of its own.
+constexpr std::uint32_t SEED_STRIDE = 0x9e3779b9u;
 
 RowBuffer make_reservoirs(const std::string& name, int width_px, int height_px) {
     return make_pixel_rows(name, width_px, height_px, RESERVOIR_ROWS, BufferUse::DEVICE);
@@ -33,24 +35,36 @@ DirectLight::DirectLight(ProgramLibrary& programs, int width_px, int height_px)
       initial_visibility_(programs, width_px, height_px),
       reuse_step_(programs, width_px, height_px),
       temporal_(reuse_step_),
+      boiling_filter_(programs, width_px, height_px),
       spatial_(reuse_step_),
       visibility_(std::size_t(width_px) * std::size_t(height_px)),
       shade_(programs, width_px, height_px),
       programs_(programs) {}
 
 const Texture2D& DirectLight::record(DirectFrame direct, const World& world, const RowBuffer* light_tree) {
+    const CandidateSources sources = find_sources(direct, light_tree);
+    const std::uint32_t seed = direct.shadow_key.seed;
+    for (int i = 0; i < direct.settings.sample_count(); ++i) {
+        direct.sample = std::uint32_t(i);
+        direct.shadow_key.seed = seed ^ (direct.sample * SEED_STRIDE);
+        record_sample(direct, world, sources);
+    }
+    return shade_.radiance();
+}
+
+void DirectLight::record_sample(DirectFrame& direct, const World& world, CandidateSources sources) {
+    if (direct.settings.resamples() && direct.settings.brdf_candidate) {
+        sources.brdf_samples = &trace_brdf(direct, world);
+    }
     const std::vector<glm::vec3> targets = targets_of(direct.settings);
-    const CandidateSources sources = find_sources(direct, world, light_tree);
     while (lanes_.size() < targets.size()) lanes_.emplace_back(width_px_, height_px_);
     for (std::size_t lane = 0; lane < targets.size(); ++lane) {
         direct.target_weights = targets[lane];
         record_lane(direct, lane, sources);
     }
-    return shade_.radiance();
 }
 
-CandidateSources DirectLight::find_sources(const DirectFrame& direct, const World& world,
-                                           const RowBuffer* light_tree) {
+CandidateSources DirectLight::find_sources(const DirectFrame& direct, const RowBuffer* light_tree) {
     const DirectSettings& settings = direct.settings;
     CandidateSources sources;
     if (settings.selection() == LightSelection::TILES) {
@@ -58,15 +72,17 @@ CandidateSources DirectLight::find_sources(const DirectFrame& direct, const Worl
         sources.tiles = &light_tiles_->record(direct);
     }
     if (settings.selection() == LightSelection::TREE) sources.tree = light_tree;
-    if (settings.resamples() && settings.brdf_candidate) {
-        if (!brdf_candidates_) {
-            brdf_candidates_ = std::make_unique<BrdfCandidatesPass>(programs_, width_px_, height_px_);
-        }
-        sources.brdf_samples = &brdf_candidates_->record(direct, world);
-        rays_.closest += brdf_candidates_->result().traced;
-        rays_.shadow.rejected += brdf_candidates_->result().rejected;
-    }
     return sources;
+}
+
+const RowBuffer& DirectLight::trace_brdf(const DirectFrame& direct, const World& world) {
+    if (!brdf_candidates_) {
+        brdf_candidates_ = std::make_unique<BrdfCandidatesPass>(programs_, width_px_, height_px_);
+    }
+    const RowBuffer& samples = brdf_candidates_->record(direct, world);
+    rays_.closest += brdf_candidates_->result().traced;
+    rays_.shadow.rejected += brdf_candidates_->result().rejected;
+    return samples;
 }
 
 void DirectLight::record_lane(const DirectFrame& direct, std::size_t lane, const CandidateSources& sources) {
@@ -79,7 +95,7 @@ void DirectLight::record_lane(const DirectFrame& direct, std::size_t lane, const
     const RowBuffer& chosen = settings.reuses() ? reuse(direct, lanes_[lane], fresh) : fresh.reservoirs;
     const RowBuffer* seen =
         settings.traces_chosen_samples() ? &trace(direct, "visibility", fresh.rays) : nullptr;
-    shade_.record(direct, chosen, seen, lane == 0);
+    shade_.record(direct, chosen, seen, direct.sample == 0 && lane == 0);
 }
 
 // The steps of reuse in turn; the last one writes what the next frame will find, and the rays that test it.
@@ -93,6 +109,7 @@ const RowBuffer& DirectLight::reuse(const DirectFrame& direct, Lane& lane, const
         const bool last = spatial_steps == 0;
         const RowBuffer& out = last ? result : scratch_[0];
         temporal_.record(direct, {*in, out, last ? last_rays : nullptr}, lane.reservoirs.previous());
+        if (settings.boiling_filter > 0.0) boiling_filter_.record(direct, out);
         in = &out;
     }
     for (int i = 0; i < spatial_steps; ++i) {

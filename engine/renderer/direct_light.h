@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "passes/direct/boiling_filter.h"
 #include "passes/direct/brdf_candidates.h"
 #include "passes/direct/candidates.h"
 #include "passes/direct/light_tiles.h"
@@ -42,8 +43,10 @@ class DirectLight {
         History<RowBuffer> reservoirs;
     };
 
+    void record_sample(DirectFrame& direct, const World& world, CandidateSources sources);
     void record_lane(const DirectFrame& direct, std::size_t lane, const CandidateSources& sources);
-    CandidateSources find_sources(const DirectFrame& direct, const World& world, const RowBuffer* light_tree);
+    CandidateSources find_sources(const DirectFrame& direct, const RowBuffer* light_tree);
+    const RowBuffer& trace_brdf(const DirectFrame& direct, const World& world);
     const RowBuffer& reuse(const DirectFrame& direct, Lane& lane, const Candidates& fresh);
     const RowBuffer& trace(const DirectFrame& direct, const std::string& name, const Buffer& rays);
 
@@ -57,6 +60,7 @@ class DirectLight {
     std::unique_ptr<BrdfCandidatesPass> brdf_candidates_;
     ReuseStep reuse_step_;
     TemporalPass temporal_;
+    BoilingFilterPass boiling_filter_;
     SpatialPass spatial_;
     VisibilityPass visibility_;
     DirectShadePass shade_;

@@ -105,6 +105,9 @@ const std::vector<Setting>& setting_table() {
                 "brdf-candidate",
                 "One candidate more from a ray along the BRDF, joined by MIS: for mirrors and glossy floors",
                 &S::brdf_candidate)),
+        where(&S::takes_samples,
+              number("samples", "", "Samples a pixel and frame, each with a ray; reuse keeps one",
+                     &S::samples, 1, 256)),
         where(&S::uses_restir, choose("reuse", "restir: whose samples are reused", &S::reuse,
                                       {"none", "temporal", "spatial", "spatiotemporal"})),
         where(&S::reuses_space, number("spatial-iterations", "", "restir: steps of reuse over neighbours",
@@ -142,14 +145,19 @@ const std::vector<Setting>& setting_table() {
         where(&S::reuses_time, number("age-cap", "frames", "restir: drop samples older than this; 0: never",
                                       &S::age_cap, 0, 1000)),
         where(&S::reuses_time,
+              number("boiling-filter", "x",
+                     "restir: drop samples that outweigh the mean of their 8 x 8 pixels this many times; "
+                     "darkens; 0: none",
+                     &S::boiling_filter, 0, 1000)),
+        where(&S::reuses_time,
               toggle("permute", "restir: neighbours swap their histories, so that fewer share a sample",
                      &S::permute)),
         where(&S::reuses_space,
               toggle("mirror",
                      "restir: neighbours outside of the picture are mirrored into it instead of left out",
                      &S::mirror)),
-        choose("debug-view", "Show the visibility of the chosen samples instead of light", &S::debug_view,
-               {"none", "visibility"}),
+        choose("debug-view", "Show the visibility of the chosen samples, or their light without it",
+               &S::debug_view, {"none", "visibility", "unshadowed"}),
     };
     return table;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bench/bench_run.h"
+#include "bench/equal_time.h"
 #include "bench/results.h"
 #include "core/log.h"
 #include "support/process.h"
@@ -33,6 +34,7 @@ inline nlohmann::ordered_json run_toy_bench(const BenchPlan& plan, FrameSource& 
     scene["reference"] = describe_truth(truth, folder, "toy");
     scene["methods"] = describe_methods(plan, cells, truth, work, folder, "toy");
     scene["equal_error"] = describe_equal_error(scene["methods"]);
+    scene["equal_time"] = describe_equal_time(scene["methods"]);
     nlohmann::ordered_json results = {{"format", RESULTS_FORMAT}, {"version", RESULTS_VERSION}};
     results["scenes"] = nlohmann::ordered_json::array({scene});
     return results;

@@ -42,9 +42,9 @@ class ToySource : public FrameSource {
     }
     static Truth make_toy_truth() { return make_truth(make_reference(), {}, 0.0f); }
 
-    RenderedFrame render(std::size_t method, const RenderSettings& settings, std::uint32_t seed,
-                         std::uint32_t frame, bool) override {
+    RenderedFrame render(const FrameRequest& request) override {
         ++rendered_;
+        const auto& [method, settings, seed, frame, starts, lead] = request;
         const ToyFault& fault = faults_[method];
         RenderedFrame result;
         result.radiance =

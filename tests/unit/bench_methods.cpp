@@ -38,7 +38,11 @@ TEST(Methods, SettingsFollowTheColon) {
 
 TEST(Methods, ADialWithAValueIsNotTurned) {
     EXPECT_EQ(parse_method("ris").dial, "candidates");
-    EXPECT_EQ(parse_method("ris:candidates=7").dial, "");
+    EXPECT_EQ(parse_method("ris:candidates=7").dial, "samples");
+    EXPECT_EQ(parse_method("ris:candidates=7,samples=2").dial, "");
+    EXPECT_EQ(parse_method("uniform").dial, "samples");
+    EXPECT_EQ(parse_method("uniform:samples=2").dial, "");
+    EXPECT_EQ(parse_method("restir-fast:candidates=7").dial, "");
 }
 
 TEST(Methods, CommasSeparateMethodsAndSettings) {

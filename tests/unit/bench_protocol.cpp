@@ -81,7 +81,7 @@ TEST(BenchProtocol, ADroppedFrameIsCounted) {
 TEST(BenchProtocol, BudgetsAreFilledByTheDialElseByFrames) {
     const TemporaryFolder folder;
     ToySource source(std::vector<ToyFault>(2));
-    const Json results = run_toy_bench(toy_plan("uniform,ris"), source, folder.path());
+    const Json results = run_toy_bench(toy_plan("uniform:samples=1,ris"), source, folder.path());
     for (std::size_t method : {0u, 1u}) {
         for (const Json& cell : results["scenes"][0]["methods"][method]["cells"]) {
             if (cell["kind"] != "budget") continue;
@@ -91,6 +91,38 @@ TEST(BenchProtocol, BudgetsAreFilledByTheDialElseByFrames) {
             EXPECT_NEAR(cell["ms"]["median"].get<double>(), budget_ms, tolerance);
             EXPECT_EQ(method == 1, cell["frames"] == 1);
         }
+    }
+}
+
+TEST(BenchProtocol, EqualTimeNamesTheBestAndHowFarTheOthersAreFromIt) {
+    const TemporaryFolder folder;
+    ToySource source(std::vector<ToyFault>(2));
+    // The time of the one goes into frames, whose mean is better; that of the other into a dial that helps
+    // nothing.
+    const Json results = run_toy_bench(toy_plan("uniform:samples=1,ris"), source, folder.path());
+    const Json& budgets = results["scenes"][0]["equal_time"];
+    ASSERT_EQ(budgets.size(), 2u);
+    const Json& budget = budgets[1];
+    EXPECT_EQ(budget["budget_ms"], 40.0);
+    EXPECT_EQ(budget["best"], "uniform:samples=1");
+    EXPECT_EQ(budget["ratios"][0]["ratio"], 1.0);
+    const Json& other = budget["ratios"][1];
+    const double frames = results["scenes"][0]["methods"][0]["cells"][3]["frames"];
+    EXPECT_GT(frames, 4.0);
+    EXPECT_NEAR(other["ratio"].get<double>(), frames, 0.1 * frames);
+    EXPECT_LT(other["low"].get<double>(), frames);
+    EXPECT_GT(other["high"].get<double>(), frames);
+}
+
+TEST(BenchProtocol, AMovingCameraLeavesOneFrameACell) {
+    const TemporaryFolder folder;
+    ToySource source(std::vector<ToyFault>(2));
+    BenchPlan plan = toy_plan("uniform:samples=1,ris");
+    plan.moving = true;
+    const Json results = run_toy_bench(plan, source, folder.path());
+    for (const Json& method : results["scenes"][0]["methods"]) {
+        for (const Json& cell : method["cells"]) EXPECT_EQ(cell["frames"], 1);
+        EXPECT_TRUE(method["slope"]["mean"].is_null());
     }
 }
 

@@ -24,7 +24,7 @@ double time_frame_ms(FrameSource& source, std::size_t method, int warm_up_frames
     std::vector<double> ms;
     for (int i = 0; i < warm_up_frames + TIMED_FRAMES; ++i) {
         const RenderedFrame frame =
-            source.render(method, settings, 0, CALIBRATION_FRAME + std::uint32_t(i), i == 0);
+            source.render({method, settings, 0, CALIBRATION_FRAME + std::uint32_t(i), i == 0});
         if (i >= warm_up_frames) ms.push_back(frame.timings.frame_ms);
     }
     return quantile(ms, 0.5);
@@ -56,15 +56,20 @@ double try_fit(FrameSource& source, const Method& method, std::size_t index, con
     const int warm_up_frames = std::min(method.warm_up_frames, TIMING_WARM_UP_FRAMES);
     for (int i = 0; i < warm_up_frames + fit.frames; ++i) {
         const RenderedFrame frame =
-            source.render(index, fit.settings, 0, CALIBRATION_FRAME + std::uint32_t(i), i == 0);
+            source.render({index, fit.settings, 0, CALIBRATION_FRAME + std::uint32_t(i), i == 0});
         if (i >= warm_up_frames) ms += frame.timings.frame_ms;
     }
     return ms;
 }
 
+// What a single picture can spend: a camera that moves has no second frame to average with.
+TimeFit keep_one_frame(const TimeFit& fit) {
+    return {fit.settings, 1, fit.expected_ms / fit.frames};
+}
+
 Cell plan_cell(const BenchPlan& plan, std::size_t method_index, int budget, FrameSource& source) {
     const Method& method = plan.methods[method_index];
-    if (budget < 0) return {method_index, budget, {method.settings, plan.frames, 0.0}};
+    if (budget < 0) return {method_index, budget, {method.settings, plan.moving ? 1 : plan.frames, 0.0}};
     const auto timer = [&](const RenderSettings& settings) {
         return time_frame_ms(source, method_index, std::min(method.warm_up_frames, TIMING_WARM_UP_FRAMES),
                              settings);
@@ -74,6 +79,7 @@ Cell plan_cell(const BenchPlan& plan, std::size_t method_index, int budget, Fram
     // A machine that was busy while it calibrated gives itself away when the fit is tried.
     for (int round = 0; round < CALIBRATION_ROUNDS; ++round) {
         cell.fit = fit_budget(method, budget_ms, timer);
+        if (plan.moving) cell.fit = keep_one_frame(cell.fit);
         const double ms = try_fit(source, method, method_index, cell.fit);
         if (std::abs(ms - cell.fit.expected_ms) < GOOD_FIT * ms) break;
     }

@@ -16,7 +16,8 @@ struct BenchPlan {
     std::vector<double> budgets_ms;
     int seeds = 8;  // at least 3, so that bias can be told from noise
     std::uint32_t first_seed = 0;
-    int frames = 32;  // of the convergence curves: a power of two
+    int frames = 32;      // of the convergence curves: a power of two
+    bool moving = false;  // the camera arrives with the one frame that is measured: no curves
 };
 
 // One kind of picture: the sequence of the convergence curve, or what a budget pays for.

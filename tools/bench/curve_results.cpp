@@ -46,16 +46,11 @@ double fit_slope(std::span<const SequenceMeasure> seeds, std::size_t left_out, d
 }
 
 // With an interval by the jackknife over seeds. Time is proportional to frames, so the slope is the same.
+// Null where one point makes no curve.
 Json describe_slope(std::span<const SequenceMeasure> seeds, double reference_mse) {
-    const double slope = fit_slope(seeds, seeds.size(), reference_mse);
-    RunningMoments left_out;
-    for (std::size_t seed = 0; seed < seeds.size(); ++seed) {
-        left_out.add(fit_slope(seeds, seed, reference_mse));
-    }
-    const double count = double(seeds.size());
-    const double error = (count - 1.0) * std::sqrt(left_out.variance_of_mean());
-    const double reach = student_t_quantile(0.975, count - 1.0) * error;
-    return describe({slope, slope - reach, slope + reach});
+    if (seeds.front().curve.size() < 2) return {{"mean", nullptr}, {"low", nullptr}, {"high", nullptr}};
+    return describe(estimate_jackknife(
+        seeds.size(), [&](std::size_t left_out) { return fit_slope(seeds, left_out, reference_mse); }));
 }
 
 std::vector<TimedError> read_curve(const Json& method) {

@@ -1,6 +1,7 @@
 #include "bench/method.h"
 
 #include <algorithm>
+#include <set>
 
 #include "core/error.h"
 
@@ -21,9 +22,10 @@ struct MethodRow {
 constexpr int RESTIR_WARM_UP_FRAMES = 20;
 
 constexpr MethodRow METHODS[] = {
-    {"uniform", "one light at random, one shadow ray", "direct=uniform", "", 0},
-    {"power", "one light by its power, one shadow ray", "direct=power", "", 0},
-    {"light-tree", "one light by a walk down the light tree, one shadow ray", "direct=light-tree", "", 0},
+    {"uniform", "one light at random, one shadow ray", "direct=uniform", "samples", 0},
+    {"power", "one light by its power, one shadow ray", "direct=power", "samples", 0},
+    {"light-tree", "one light by a walk down the light tree, one shadow ray", "direct=light-tree", "samples",
+     0},
     {"ris", "the best of several lights by power and reflection, one shadow ray", "direct=ris", "candidates",
      0},
     {"restir-fast", "ReSTIR, preset fast: some bias, least noise for its time", "preset=fast", "candidates",
@@ -107,9 +109,12 @@ Method parse_method(const std::string& text) {
     Method method = *row;
     method.label = text;
     if (colon == std::string::npos) return method;
+    std::set<std::string> given;
     for (const std::string& setting : split(text.substr(colon + 1), ',')) {
-        if (apply_setting(method.settings, setting, text) == method.dial) method.dial.clear();
+        given.insert(apply_setting(method.settings, setting, text));
     }
+    if (given.contains(method.dial)) method.dial = method.settings.takes_samples() ? "samples" : "";
+    if (given.contains(method.dial)) method.dial.clear();
     return method;
 }
 

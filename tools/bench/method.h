@@ -20,7 +20,8 @@ struct Method {
 const std::vector<Method>& method_table();
 
 // Reads NAME[:setting=value[,setting=value...]] with the renderer's own settings table. A dial that is given
-// a value is not turned any more. Throws Error that names what is unknown and what there is.
+// a value is not turned any more: `samples` takes its place where the method takes several, else nothing.
+// Throws Error that names what is unknown and what there is.
 Method parse_method(const std::string& text);
 
 // Reads methods separated by commas; a piece such as "candidates=8" belongs to the method before it. Throws

@@ -105,8 +105,8 @@ double mean_absolute_change(const Image& before, const Image& after) {
 
 void warm_up(FrameSource& source, const SequenceRequest& request) {
     for (int i = 0; i < request.warm_up_frames; ++i) {
-        source.render(request.method, request.settings, request.seed, request.first_frame + std::uint32_t(i),
-                      i == 0);
+        source.render({request.method, request.settings, request.seed, request.first_frame + std::uint32_t(i),
+                       i == 0, request.warm_up_frames - i});
     }
 }
 
@@ -171,8 +171,8 @@ MeasuredSequence measure_sequence(FrameSource& source, const Truth& truth, const
     warm_up(source, request);
     for (int i = 0; i < request.frames; ++i) {
         const std::uint32_t number = request.first_frame + std::uint32_t(request.warm_up_frames + i);
-        RenderedFrame frame = source.render(request.method, request.settings, request.seed, number,
-                                            i == 0 && request.warm_up_frames == 0);
+        RenderedFrame frame = source.render(
+            {request.method, request.settings, request.seed, number, i == 0 && request.warm_up_frames == 0});
         add_timings(measure, frame.timings);
         measure.rays += frame.rays;
         FrameSum sum{{frame.radiance.values.begin(), frame.radiance.values.end()}, 1};

@@ -22,14 +22,21 @@ struct RenderedFrame {
     std::uint64_t rays = 0;
 };
 
+struct FrameRequest {
+    std::size_t method = 0;
+    const RenderSettings& settings;
+    std::uint32_t seed = 0;
+    std::uint32_t frame = 0;  // its number
+    bool starts = false;      // drops all history before it
+    int lead = 0;             // frames until the first that counts: where on its way a moving camera is
+};
+
 // What renders for the benchmark: the renderer, or a stand-in in tests.
 class FrameSource {
   public:
     virtual ~FrameSource() = default;
 
-    // Frame number `frame` by method number `method`. `starts` drops all history before it.
-    virtual RenderedFrame render(std::size_t method, const RenderSettings& settings, std::uint32_t seed,
-                                 std::uint32_t frame, bool starts) = 0;
+    virtual RenderedFrame render(const FrameRequest& request) = 0;
 
     // What the method dropped, clamped or rejected since the source was made, by name.
     virtual std::map<std::string, std::uint64_t> read_counters(std::size_t method) = 0;

@@ -1,6 +1,8 @@
 // Any number of small emissive triangles above a floor with pillars; their total power does not depend on the
 // number.
+#include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "content/portable_math.h"
 #include "content/scenes.h"
@@ -116,17 +118,21 @@ Lights make_lights(GltfWriter& writer, const Random& random, int count, const st
     return lights;
 }
 
-void append_light(Shape& shape, const Lights& lights, int light, float margin) {
-    const auto index = static_cast<std::uint64_t>(light);
-    const glm::vec3 place = place_light(lights.random, index, margin, lights.boxes);
-    append_light(shape, lights.random, index, place, lights.side);
+glm::vec3 place_light(const Lights& lights, int light, float margin) {
+    return place_light(lights.random, static_cast<std::uint64_t>(light), margin, lights.boxes);
+}
+
+void append_light(Shape& shape, const Lights& lights, int light, const glm::vec3& place) {
+    append_light(shape, lights.random, static_cast<std::uint64_t>(light), place, lights.side);
 }
 
 // Lights from `first` on, which stand still: one mesh, one part for each hue that is used.
 void add_still_lights(GltfWriter& writer, const Lights& lights, int first, int count) {
     std::vector<Part> parts;
     for (const int material : lights.materials) parts.push_back({{}, material});
-    for (int i = first; i < count; ++i) append_light(parts[i % HUE_COUNT].shape, lights, i, lights.side);
+    for (int i = first; i < count; ++i) {
+        append_light(parts[i % HUE_COUNT].shape, lights, i, place_light(lights, i, lights.side));
+    }
     std::erase_if(parts, [](const Part& part) { return part.shape.triangles.empty(); });
     if (!parts.empty()) writer.add_node("lights", {}, writer.add_mesh("lights", parts));
 }
@@ -140,20 +146,39 @@ void drift(GltfWriter& writer, int node, const Random& random, std::uint64_t gro
                                {glm::vec3(0.0f), a + b, 2.0f * a, a - b, glm::vec3(0.0f)});
 }
 
-// The first `count` lights, in groups of one hue that drift each on its own.
+// Interleaves the bits of a place in the hall, so that successive codes are near each other.
+std::uint32_t morton_code(const glm::vec3& place) {
+    const glm::vec3 share = (place - glm::vec3(-HALF_FLOOR_M, 0, -HALF_FLOOR_M)) / (2 * HALF_FLOOR_M);
+    std::uint32_t code = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto cell = static_cast<std::uint32_t>(std::clamp(share[axis], 0.0f, 0.999f) * 1024.0f);
+        for (int bit = 0; bit < 10; ++bit) code |= (cell >> bit & 1u) << (3 * bit + axis);
+    }
+    return code;
+}
+
+// The first `count` lights, in swarms of neighbours of one hue that drift each on its own.
 void add_drifting_lights(GltfWriter& writer, const Lights& lights, int count) {
-    std::uint64_t group = 0;
-    for (int hue = 0; hue < std::min(count, HUE_COUNT); ++hue) {
-        Part part{{}, lights.materials[hue]};
-        for (int i = hue; i < count; i += HUE_COUNT) {
-            append_light(part.shape, lights, i, lights.side + DRIFT_M);
-            const bool is_full = part.shape.triangles.size() == GROUP_SIZE;
-            if (!is_full && i + HUE_COUNT < count) continue;
-            const std::string name = "drifting lights " + std::to_string(group);
-            drift(writer, writer.add_node(name, {}, writer.add_mesh(name, {part})), lights.random, group);
-            part.shape = {};
-            ++group;
+    struct Placed {
+        std::uint32_t code;
+        int light;
+        glm::vec3 place;
+    };
+    std::vector<Placed> placed;
+    for (int i = 0; i < count; ++i) {
+        const glm::vec3 place = place_light(lights, i, lights.side + DRIFT_M);
+        placed.push_back({morton_code(place), i, place});
+    }
+    std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
+        return std::tie(a.code, a.light) < std::tie(b.code, b.light);
+    });
+    for (std::size_t first = 0, group = 0; first < placed.size(); first += GROUP_SIZE, ++group) {
+        Part part{{}, lights.materials[group % lights.materials.size()]};
+        for (std::size_t i = first; i < std::min(first + GROUP_SIZE, placed.size()); ++i) {
+            append_light(part.shape, lights, placed[i].light, placed[i].place);
         }
+        const std::string name = "drifting lights " + std::to_string(group);
+        drift(writer, writer.add_node(name, {}, writer.add_mesh(name, {part})), lights.random, group);
     }
 }
 

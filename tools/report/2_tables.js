@@ -66,6 +66,18 @@ function makeEqualErrorTable(scene) {
   return makeTable(["method", ...targets.map((target) => `relMSE ${formatNumber(target.rel_mse)}`)], rows);
 }
 
+function makeEqualTimeTable(scene) {
+  const budgets = scene.equal_time || [];
+  const rows = scene.methods.map((method, index) => ({cells: [
+    element("span", {}, swatch(index), method.label),
+    ...budgets.map((budget) => {
+      const found = budget.ratios[index];
+      if (found.label === budget.best) return `best: ${formatNumber(found.rel_mse)}`;
+      return `${formatNumber(found.ratio)} x (${formatNumber(found.low)} … ${formatNumber(found.high)})`;
+    })]}));
+  return makeTable(["method", ...budgets.map((budget) => `${budget.budget_ms} ms`)], rows);
+}
+
 function makeSlopeTable(scene) {
   return makeTable(["method", "slope", "95 % interval"], scene.methods.map((method, index) => ({cells: [
     element("span", {}, swatch(index), method.label), formatNumber(method.slope.mean),

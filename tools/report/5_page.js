@@ -51,6 +51,7 @@ function makeSceneSection(scene, settings, number) {
       (metric) => makeErrorAgainstTime(scene, metric)),
     makeFigure("Time of each pass at the method's own settings.", () => makeScenePassBars(scene)));
   box.append(element("h3", {}, "Curves"), charts,
+    element("h3", {}, "relMSE at equal time, over the best method's"), makeEqualTimeTable(scene),
     element("h3", {}, `Time to the error of ${scene.equal_error.baseline}`), makeEqualErrorTable(scene),
     element("h3", {}, "Slope of log MSE over log time"),
     element("p", {class: "quiet"}, "−1 where all error is independent noise; nearer to 0 where bias or correlation in time stays."),

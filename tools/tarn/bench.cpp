@@ -6,6 +6,7 @@
 #include <bit>
 
 #include "bench/compare_results.h"
+#include "bench/equal_time.h"
 #include "bench/file_names.h"
 #include "bench/hash.h"
 #include "bench/reference_cache.h"
@@ -14,18 +15,16 @@
 #include "commands.h"
 #include "core/error.h"
 #include "core/interrupt.h"
+#include "direct_truth.h"
 #include "gl/shader_source.h"
 #include "renderer_source.h"
 #include "session.h"
-#include "silhouettes.h"
 
 namespace tarn {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Far from the seeds that methods get: the reference must share no random numbers with what it judges.
-constexpr std::uint32_t REFERENCE_SEED = 0x5eed0001u;
 constexpr int MAX_FRAMES = 4096;
 
 struct BenchCommand {
@@ -35,10 +34,20 @@ struct BenchCommand {
     std::vector<double> budgets_ms = {50.0, 200.0};
     int seeds = 8;
     int frames = 32;
+    int warm_up_frames = -1;  // as each method has it
+    double walk_m_per_s = 0.0;
+    double turn_deg_per_s = 0.0;
     int reference_spp = 512;
     std::string out = "out/bench";
     std::string compare;  // results.json of an earlier run
 };
+
+// Speeds of a camera are of pictures shown at this rate.
+constexpr double FRAMES_PER_S = 60.0;
+
+CameraMotion camera_motion(const BenchCommand& command) {
+    return {command.walk_m_per_s / FRAMES_PER_S, command.turn_deg_per_s / FRAMES_PER_S};
+}
 
 std::string all_method_names() {
     std::string names;
@@ -54,6 +63,11 @@ BenchPlan make_plan(const BenchCommand& command) {
     plan.seeds = command.seeds;
     plan.first_seed = command.options.scene.seed;
     plan.frames = command.frames;
+    plan.moving = !camera_motion(command).is_still();
+    for (Method& method : plan.methods) {
+        const bool has_past = method.warm_up_frames > 0;
+        if (command.warm_up_frames >= 0 && has_past) method.warm_up_frames = command.warm_up_frames;
+    }
     return plan;
 }
 
@@ -67,38 +81,19 @@ Json describe_plan(const BenchCommand& command, const BenchPlan& plan) {
                  {"seeds", plan.seeds},
                  {"first_seed", plan.first_seed},
                  {"frames", plan.frames},
+                 {"walk_m_per_s", command.walk_m_per_s},
+                 {"turn_deg_per_s", command.turn_deg_per_s},
                  {"budgets_ms", plan.budgets_ms},
                  {"reference_spp", command.reference_spp}};
     json["exposure_ev"] = nullptr;
     if (command.options.exposure_ev) json["exposure_ev"] = *command.options.exposure_ev;
     json["methods"] = Json::array();
     for (const Method& method : plan.methods) {
-        json["methods"].push_back(
-            {{"label", method.label}, {"settings", describe_settings(method.settings)}});
+        json["methods"].push_back({{"label", method.label},
+                                   {"warm_up_frames", method.warm_up_frames},
+                                   {"settings", describe_settings(method.settings)}});
     }
     return json;
-}
-
-ReferenceSettings reference_settings(const BenchCommand& command, const CameraRecord& camera) {
-    ReferenceSettings settings;
-    settings.width = command.options.scene.width;
-    settings.height = command.options.scene.height;
-    settings.camera = camera;
-    settings.direct_only = true;
-    settings.spp = std::uint64_t(command.reference_spp);
-    settings.seed = REFERENCE_SEED;
-    settings.cancel = &interrupt_flag();
-    return settings;
-}
-
-Truth find_truth(const BenchCommand& command, RenderSession& session, const ReferenceSettings& settings) {
-    const ReferenceResult reference =
-        ReferenceCache(default_cache_folder()).get(session.loaded().world, session.tracer(), settings);
-    if (reference.cancelled) throw Error("interrupted while the reference was rendered");
-    FrameInput input;
-    input.camera = settings.camera;
-    const std::vector<std::uint32_t> left_out = find_silhouettes(session.renderer(), session.tracer(), input);
-    return make_truth(reference, left_out, command.options.exposure_ev);
 }
 
 Json bench_scene(const BenchCommand& command, const BenchPlan& plan, const std::string& scene, Json& machine,
@@ -109,7 +104,7 @@ Json bench_scene(const BenchCommand& command, const BenchPlan& plan, const std::
     machine = session.describe_machine();
     World& world = session.loaded().world;
     const CameraRecord camera = choose_camera(options.scene, session.loaded().scene, world);
-    const ReferenceSettings reference = reference_settings(command, camera);
+    const ReferenceSettings reference = direct_truth_settings(options, camera, command.reference_spp);
 
     const std::string name = std::filesystem::path(scene).stem().string();
     const std::filesystem::path out = command.out;
@@ -120,11 +115,11 @@ Json bench_scene(const BenchCommand& command, const BenchPlan& plan, const std::
                            {"machine", machine}});
     works.push_back(work);
     if (work.is_resumed()) fmt::print("{}: going on where an earlier run stopped\n", name);
-    const Truth truth = find_truth(command, session, reference);
+    const Truth truth = find_direct_truth(session, options, reference);
 
     RendererSource source(world, session.tracer(), options.scene.width, options.scene.height,
                           plan.methods.size());
-    source.set_camera(camera);
+    source.set_camera(camera, camera_motion(command));
     const std::vector<Cell> cells = plan_cells(plan, source, work);
     measure_cells(plan, cells, source, truth, work, interrupt_flag());
 
@@ -134,6 +129,7 @@ Json bench_scene(const BenchCommand& command, const BenchPlan& plan, const std::
     json["reference"] = describe_truth(truth, out, name);
     json["methods"] = describe_methods(plan, cells, truth, work, out, name);
     json["equal_error"] = describe_equal_error(json["methods"]);
+    json["equal_time"] = describe_equal_time(json["methods"]);
     return json;
 }
 
@@ -172,6 +168,20 @@ void print_scene(const Json& scene) {
     }
 }
 
+void print_equal_time(const Json& scene) {
+    for (const Json& budget : scene["equal_time"]) {
+        fmt::print("\n{} at {:g} ms: relMSE, and how many times that of {} it is (95 %)\n",
+                   scene["name"].get<std::string>(), budget["budget_ms"].get<double>(),
+                   budget["best"].get<std::string>());
+        for (const Json& ratio : budget["ratios"]) {
+            fmt::print("  {:<28} {:8.1f} ms  {:10.5f}  {:8.2f} x ({:.2f} .. {:.2f})\n",
+                       ratio["label"].get<std::string>(), ratio["ms"].get<double>(),
+                       ratio["rel_mse"].get<double>(), ratio["ratio"].get<double>(),
+                       ratio["low"].get<double>(), ratio["high"].get<double>());
+        }
+    }
+}
+
 void run_bench(BenchCommand& command) {
     const BenchPlan plan = make_plan(command);
     std::optional<ReportInput> old;
@@ -184,6 +194,7 @@ void run_bench(BenchCommand& command) {
     for (const std::string& scene : command.scenes) {
         scenes.push_back(bench_scene(command, plan, scene, machine, works));
         print_scene(scenes.back());
+        print_equal_time(scenes.back());
     }
     results["machine"] = machine;
     results["scenes"] = std::move(scenes);
@@ -230,6 +241,17 @@ void add_bench_command(CLI::App& app) {
         ->capture_default_str();
     sub->add_option("--frames", command->frames, "Frames of the convergence curves, a power of two")
         ->check(CLI::Range(2, MAX_FRAMES))
+        ->capture_default_str();
+    sub->add_option("--warm-up", command->warm_up_frames,
+                    "Frames before those that count, for methods with a past; -1: as many as fill it")
+        ->check(CLI::Range(-1, MAX_FRAMES))
+        ->capture_default_str();
+    sub->add_option(
+           "--walk", command->walk_m_per_s,
+           "The camera walks to its right at this speed, m/s at 60 frames a second, and arrives with the "
+           "one frame that counts")
+        ->capture_default_str();
+    sub->add_option("--turn", command->turn_deg_per_s, "It turns left at this speed, degrees a second")
         ->capture_default_str();
     sub->add_option("--reference-spp", command->reference_spp, "Samples a pixel of the reference")
         ->check(CLI::Range(2, 1000000))

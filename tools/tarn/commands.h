@@ -15,6 +15,7 @@ void add_bench_command(CLI::App& app);
 void add_flythrough_command(CLI::App& app);
 void add_floors_command(CLI::App& app);
 void add_report_command(CLI::App& app);
+void add_study_command(CLI::App& app);
 void add_view_command(CLI::App& app);
 
 }  // namespace tarn

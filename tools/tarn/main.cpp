@@ -21,6 +21,7 @@ int run(int argc, char** argv) {
     add_flythrough_command(app);
     add_floors_command(app);
     add_report_command(app);
+    add_study_command(app);
     add_view_command(app);
     try {
         app.parse(argc, argv);

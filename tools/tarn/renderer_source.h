@@ -10,19 +10,29 @@
 
 namespace tarn {
 
+// How a camera moves from frame to frame.
+struct CameraMotion {
+    double walk_m = 0.0;    // along its right
+    double turn_deg = 0.0;  // to the left, about its up
+
+    bool is_still() const { return walk_m == 0.0 && turn_deg == 0.0; }
+};
+
+// Where a camera that moves so is `lead` frames before it arrives.
+CameraRecord camera_before(const CameraRecord& arrived, const CameraMotion& motion, int lead);
+
 class RendererSource : public FrameSource {
   public:
     // `world` and `tracer` must outlive it; needs a current GL context.
     RendererSource(World& world, const RayTracer& tracer, int width_px, int height_px,
                    std::size_t method_count);
 
-    // What the next frames look at.
-    void set_camera(const CameraRecord& camera) { camera_ = camera; }
+    // What the next frames look at; a moving camera arrives there with the first frame that counts.
+    void set_camera(const CameraRecord& camera, const CameraMotion& motion = {});
     // Uploads what moved in the world to all renderers.
     void update();
 
-    RenderedFrame render(std::size_t method, const RenderSettings& settings, std::uint32_t seed,
-                         std::uint32_t frame, bool starts) override;
+    RenderedFrame render(const FrameRequest& request) override;
     std::map<std::string, std::uint64_t> read_counters(std::size_t method) override;
 
     Renderer& renderer(std::size_t method) { return *renderers_[method]; }
@@ -30,6 +40,7 @@ class RendererSource : public FrameSource {
   private:
     std::vector<std::unique_ptr<Renderer>> renderers_;
     CameraRecord camera_{};
+    CameraMotion motion_;
 };
 
 }  // namespace tarn

@@ -17,15 +17,6 @@ std::string read_cpu_name() {
     return "unknown";
 }
 
-ContextOptions context_options(const RenderOptions& options) {
-    ContextOptions result;
-    result.kind = parse_context_kind(options.context);
-    result.gl_threads = options.scene.threads;
-    result.window_width_px = options.scene.width;
-    result.window_height_px = options.scene.height;
-    return result;
-}
-
 nlohmann::json describe_settings(const RenderOptions& options, const Renderer& renderer) {
     nlohmann::json settings = {{"width", renderer.width_px()},
                                {"height", renderer.height_px()},
@@ -93,9 +84,18 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
     command.add_option("--json", options.json_file, "Write timings, counters and settings to this file");
 }
 
+ContextOptions make_context_options(const RenderOptions& options) {
+    ContextOptions result;
+    result.kind = parse_context_kind(options.context);
+    result.gl_threads = options.scene.threads;
+    result.window_width_px = options.scene.width;
+    result.window_height_px = options.scene.height;
+    return result;
+}
+
 RenderSession::RenderSession(const RenderOptions& options)
     : workers_(options.scene.threads), loaded_(load_scene(options.scene)), threads_(options.scene.threads) {
-    context_ = create_context(context_options(options));
+    context_ = create_context(make_context_options(options));
     tracer_ = create_embree_tracer(loaded_.world);
     renderer_ =
         std::make_unique<Renderer>(loaded_.world, *tracer_, options.scene.width, options.scene.height);

@@ -24,6 +24,9 @@ struct RenderOptions {
 // Adds --context, --exposure, --json and an option for each row of the settings table.
 void add_render_options(CLI::App& command, RenderOptions& options);
 
+// The context that the options ask for.
+ContextOptions make_context_options(const RenderOptions& options);
+
 class RenderSession {
   public:
     explicit RenderSession(const RenderOptions& options);

@@ -13,10 +13,10 @@ BrdfCandidatesPass::BrdfCandidatesPass(ProgramLibrary& programs, int width_px, i
       samples_(make_pixel_rows("direct/brdf_samples", width_px, height_px, 1, BufferUse::SHARED)) {}
 
 const RowBuffer& BrdfCandidatesPass::record(const DirectFrame& direct, const World& world) {
+    const Program& program = programs_.compute("direct/brdf_rays", direct.defines);
+    program.set("sample_index", direct.sample);
     PassRecorder pass = direct.frame.pass("direct/brdf_rays");
-    read_gbuffer(pass, direct.gbuffer)
-        .write(0, rays_)
-        .dispatch(programs_.compute("direct/brdf_rays", direct.defines), width_px_, height_px_);
+    read_gbuffer(pass, direct.gbuffer).write(0, rays_).dispatch(program, width_px_, height_px_);
     direct.frame.pass("direct/brdf_hits")
         .read_on_cpu(rays_.buffer())
         .write_on_cpu(samples_.buffer())

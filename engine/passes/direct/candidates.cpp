@@ -36,6 +36,7 @@ Candidates DirectCandidatesPass::record(const DirectFrame& direct, const Candida
     if (sources.brdf_samples != nullptr) defines.emplace_back("TARN_BRDF_CANDIDATE");
     const Program& program = programs_.compute("direct/candidates", defines);
     program.set("candidate_count", unsigned(direct.settings.resamples() ? direct.settings.candidates : 1));
+    program.set("sample_index", direct.sample);
     program.set("target_weights", direct.target_weights);
     PassRecorder pass = direct.frame.pass("direct/candidates");
     if (sources.tiles != nullptr) pass.read(UNIT_PASS_A, *sources.tiles);

@@ -1,6 +1,7 @@
 // What the passes of direct light have in common: the frame at hand, and tables with rows for each pixel.
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ struct DirectFrame {
     const Buffer& counters;
     std::vector<std::string> defines;  // what the scene needs (plan/frame_plan.h)
     CoverageKey shadow_key;
+    std::uint32_t sample = 0;  // which of the frame's samples of each pixel
 };
 
 // Rows of four words, `rows` of them a pixel, as shaders write and read them. Error where a storage block of

@@ -22,14 +22,15 @@ enum class Mis { SHARE, COUNT, BALANCE, PAIRWISE };
 // How the visibility of the sample that lights a pixel is known; see lib/reuse.glsl.
 enum class SampleVisibility { TRACE, REUSE, AVERAGED };
 
-// What the picture shows instead of light.
-enum class DebugView { NONE, VISIBILITY };
+// What the picture shows instead of light: the visibility of the chosen samples, or their light without it.
+enum class DebugView { NONE, VISIBILITY, UNSHADOWED };
 
 struct DirectSettings {
     DirectMode direct = DirectMode::RIS;
     LightSelection light_selection = LightSelection::POWER;
     int candidates = 32;
     bool brdf_candidate = false;
+    int samples = 1;
     Reuse reuse = Reuse::SPATIOTEMPORAL;
     int spatial_iterations = 1;
     int neighbours = 3;
@@ -41,6 +42,7 @@ struct DirectSettings {
     bool per_channel = false;
     double confidence_cap = 20.0;
     int age_cap = 0;
+    double boiling_filter = 0.0;
     bool permute = false;
     bool mirror = false;
     DebugView debug_view = DebugView::NONE;
@@ -62,6 +64,10 @@ struct DirectSettings {
         return uses_restir() && (reuse == Reuse::SPATIAL || reuse == Reuse::SPATIOTEMPORAL);
     }
     bool reuses() const { return reuses_time() || reuses_space(); }
+
+    bool takes_samples() const { return !reuses(); }
+    // Independent samples a pixel and frame; reuse keeps one.
+    int sample_count() const { return takes_samples() ? samples : 1; }
 
     // Whether the denominators of MIS trace rays, so that every kept sample is known to be seen.
     bool traces_in_mis() const { return reuses() && mis_visibility && mis != Mis::SHARE; }

@@ -17,8 +17,10 @@ void DirectShadePass::record(const DirectFrame& direct, const RowBuffer& reservo
     if (!first) defines.emplace_back("TARN_ADD");
     if (direct.settings.per_channel) defines.emplace_back("TARN_ONE_CHANNEL");
     if (direct.settings.debug_view == DebugView::VISIBILITY) defines.emplace_back("TARN_SHOW_VISIBILITY");
+    if (direct.settings.debug_view == DebugView::UNSHADOWED) defines.emplace_back("TARN_SHOW_UNSHADOWED");
     const Program& program = programs_.compute("direct/shade", defines);
     program.set("target_weights", direct.target_weights);
+    program.set("share", 1.0f / float(direct.settings.sample_count()));
     PassRecorder pass = direct.frame.pass("direct/shade");
     read_gbuffer(pass, direct.gbuffer).read(UNIT_PASS_A, reservoirs);
     if (answers != nullptr) pass.read(UNIT_PASS_B, *answers);

@@ -9,9 +9,11 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(std430, binding = 0) writeonly buffer Rays { uvec4 out_rays[]; };
 
+uniform uint sample_index;  // of the frame's samples of each pixel
+
 RayRecord brdf_ray(ivec2 pixel, Receiver r) {
     RayRecord ray = inactive_ray();
-    vec4 u = random4(pixel_key(pixel), DIMENSION_BRDF);
+    vec4 u = random4(pixel_key(pixel), sample_index * DIMENSIONS_PER_SAMPLE + DIMENSION_BRDF);
     vec3 local = sample_brdf(r.point.material, r.view_local, u.xyz);
     vec3 direction = from_local(r.frame, local);
     if (!(pdf_brdf_solid_angle(r.point.material, r.view_local, local) > 0.0f)) return ray;

@@ -29,6 +29,7 @@ layout(std430, binding = 0) writeonly buffer Reservoirs { uvec4 out_reservoirs[]
 layout(std430, binding = 1) writeonly buffer Rays { uvec4 out_rays[]; };
 
 uniform uint candidate_count;
+uniform uint sample_index;  // of the frame's samples of each pixel
 
 void store(uint pixel, Reservoir reservoir, RayRecord ray) {
     uvec4 row0, row1;
@@ -38,6 +39,14 @@ void store(uint pixel, Reservoir reservoir, RayRecord ray) {
     pack_ray(ray, row0, row1);
     out_rays[pixel * RAY_ROWS] = row0;
     out_rays[pixel * RAY_ROWS + 1u] = row1;
+}
+
+// The same dimension of another sample is another number.
+uint sample_dimension(uint dimension) {
+#ifdef TARN_PLANT_SAME_SAMPLES
+    return dimension;
+#endif
+    return sample_index * DIMENSIONS_PER_SAMPLE + dimension;
 }
 
 // What the loop over candidates works on.
@@ -69,7 +78,7 @@ void offer_incident(inout Stream s, LightCandidate c, IncidentLight incident, ui
     float target = target_at(s.receiver, incident);
     float density = c.pdf * float(candidate_count) + brdf_pdf(s, c.drawn, incident);
     float weight = target == 0.0f ? 0.0f : target / density;
-    float u = random4(s.key, DIMENSION_CHOICE + i).x;
+    float u = random4(s.key, sample_dimension(DIMENSION_CHOICE + i)).x;
     if (!offer_candidate(s.live, c.drawn, target, weight, u)) count_event(COUNTER_BAD_WEIGHT);
 }
 
@@ -105,7 +114,7 @@ float selection_pdf(Stream s, LightSample drawn, IncidentLight incident) {
 #ifdef TARN_SELECT_UNIFORM
 void offer_all(inout Stream s) {
     for (uint i = 0u; i < candidate_count; ++i) {
-        offer(s, draw_light_uniformly(random_bits4(s.key, DIMENSION_CANDIDATE + i)), i);
+        offer(s, draw_light_uniformly(random_bits4(s.key, sample_dimension(DIMENSION_CANDIDATE + i))), i);
     }
 }
 #else
@@ -116,12 +125,12 @@ uint sky_candidate_count() {
     key.pixel = 0u;
     key.frame = frame_size.z;
     key.seed = frame_size.w;
-    float shift = random4(key, DIMENSION_SELECT).x;
+    float shift = random4(key, sample_dimension(DIMENSION_SELECT)).x;
     return min(candidate_count, uint(floor(float(candidate_count) * environment_probability() + shift)));
 }
 
 void offer_light(inout Stream s, uint i, float share) {
-    uvec4 bits = random_bits4(s.key, DIMENSION_CANDIDATE + i);
+    uvec4 bits = random_bits4(s.key, sample_dimension(DIMENSION_CANDIDATE + i));
 #if defined(TARN_SELECT_TILES)
     Light light;
     LightCandidate c = load_tile_candidate(s.pixel, bits.x, light);
@@ -143,7 +152,7 @@ void offer_all(inout Stream s) {
     uint sky_count = SCENE_HAS_ENVIRONMENT ? sky_candidate_count() : 0u;
     if (SCENE_HAS_ENVIRONMENT) {
         for (uint i = 0u; i < sky_count; ++i) {
-            LightCandidate c = draw_environment(random_bits4(s.key, DIMENSION_CANDIDATE + i));
+            LightCandidate c = draw_environment(random_bits4(s.key, sample_dimension(DIMENSION_CANDIDATE + i)));
             c.pdf *= share;
             offer(s, c, i);
         }

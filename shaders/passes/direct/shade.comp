@@ -1,7 +1,8 @@
 // Lights each pixel with its reservoir's sample: emission + BRDF x Le x G x visibility x contribution weight.
 //
 // TARN_RESERVOIR_VISIBILITY: visibility is what the reservoir knows; else a ray was traced for it.
-// TARN_SHOW_VISIBILITY: the visibility term itself instead of light, as figure 1 of Tokuyoshi's supplement shows it.
+// TARN_SHOW_VISIBILITY: the visibility term itself instead of light; TARN_SHOW_UNSHADOWED: light without it. Figures 1c,
+// 1d and 1e of Tokuyoshi's supplement.
 // TARN_ONE_CHANNEL: the sample stands for the channel of `target_weights` alone. TARN_ADD: to what is there already.
 #include "lib/scene_buffers.glsl"
 #include "lib/frame.glsl"
@@ -15,7 +16,12 @@ layout(binding = UNIT_PASS_A) uniform usamplerBuffer reservoirs;
 layout(binding = UNIT_PASS_B) uniform samplerBuffer visibility;
 layout(binding = 0, rgba32f) uniform image2D radiance_image;
 
+uniform float share;  // of this sample in the picture
+
 float load_visibility(ivec2 pixel, Reservoir reservoir) {
+#ifdef TARN_SHOW_UNSHADOWED
+    return 1.0f;
+#endif
 #ifdef TARN_RESERVOIR_VISIBILITY
     return reservoir.visibility;
 #else
@@ -35,7 +41,7 @@ vec3 direct_light(ivec2 pixel, Receiver receiver) {
 #ifdef TARN_ONE_CHANNEL
     reflected *= target_weights;
 #endif
-    return reflected;
+    return reflected * share;
 }
 
 void main() {

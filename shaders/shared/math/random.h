@@ -68,6 +68,7 @@ CONSTANT uint DIMENSION_BRDF = 1344u;      // + index of the candidate drawn fro
 CONSTANT uint DIMENSION_CHOICE = 2048u;    // + candidate index: whether it replaces the one before
 CONSTANT uint DIMENSION_PIXEL = 4096u;     // reference: position within the pixel
 CONSTANT uint DIMENSION_BOUNCE = 8192u;    // reference: + 8 * bounce
+CONSTANT uint DIMENSIONS_PER_SAMPLE = 65536u;  // direct light: further samples of a pixel begin here
 CONSTANT uint RAY_CAMERA = 0u;
 CONSTANT uint RAY_SHADOW = 1u;
 CONSTANT uint RAY_BOUNCE = 2u;  // reference: + bounce

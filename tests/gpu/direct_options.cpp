@@ -1,0 +1,180 @@
+// What single settings of direct light do: several samples a pixel, the boiling filter.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/statistics.h"
+#include "gl/program_library.h"
+#include "gl/row_buffer.h"
+#include "platform/context.h"
+#include "renderer/renderer.h"
+#include "shared/interface/bindings.h"
+#include "shared/interface/frame_block.h"
+#include "shared/math/reservoir.h"
+#include "support/draws.h"
+#include "support/test_scenes.h"
+
+namespace tarn {
+namespace {
+
+constexpr int WIDTH_PX = 48;
+constexpr int HEIGHT_PX = 27;
+
+// Mean and variance of one picture, each averaged over all values.
+struct Noise {
+    double mean = 0.0;
+    double variance = 0.0;
+    double error = 0.0;  // standard error of the mean
+};
+
+Noise measure_noise(const RenderSettings& settings, std::vector<std::string> planted = {}) {
+    constexpr int FRAMES = 128;
+    const auto context = create_context({});
+    const auto scene = test::load_test_scene(test::content_file("cornell"));
+    Renderer renderer(scene->world, *scene->tracer, WIDTH_PX, HEIGHT_PX, std::move(planted));
+    FrameInput input;
+    input.camera = test::first_camera(*scene, double(WIDTH_PX) / HEIGHT_PX);
+    input.settings = settings;
+    std::vector<RunningMoments> values(3 * std::size_t(WIDTH_PX * HEIGHT_PX));
+    RunningMoments means;
+    for (input.frame = 0; input.frame < FRAMES; ++input.frame) {
+        const Image image = renderer.read_radiance(renderer.render(input).radiance);
+        RunningMoments picture;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            values[i].add(image.values[i]);
+            picture.add(image.values[i]);
+        }
+        means.add(picture.mean());
+    }
+    RunningMoments variances;
+    for (const RunningMoments& value : values) variances.add(value.variance());
+    return {means.mean(), variances.mean(), std::sqrt(means.variance_of_mean())};
+}
+
+// Four samples a pixel have the mean of one and a quarter of its variance: they are independent.
+void expect_quarter(RenderSettings settings) {
+    const Noise one = measure_noise(settings);
+    settings.samples = 4;
+    const Noise four = measure_noise(settings);
+    EXPECT_NEAR(four.mean, one.mean, 4.0 * std::hypot(one.error, four.error));
+    EXPECT_NEAR(four.variance / one.variance, 0.25, 0.02);
+}
+
+TEST(SamplesAPixel, OfOneLightAtRandomAreIndependent) {
+    RenderSettings settings;
+    settings.direct = DirectMode::UNIFORM;
+    expect_quarter(settings);
+}
+
+TEST(SamplesAPixel, OfSeveralCandidatesAreIndependent) {
+    RenderSettings settings;
+    settings.candidates = 4;
+    settings.brdf_candidate = true;
+    expect_quarter(settings);
+}
+
+TEST(SamplesAPixel, ForEachChannelAreIndependent) {
+    RenderSettings settings;
+    settings.candidates = 4;
+    settings.per_channel = true;
+    expect_quarter(settings);
+}
+
+TEST(SamplesAPixel, NegativeControlTheSameNumbersForEachAreFound) {
+    RenderSettings settings;
+    settings.direct = DirectMode::UNIFORM;
+    const Noise one = measure_noise(settings);
+    settings.samples = 4;
+    const Noise four = measure_noise(settings, {"TARN_PLANT_SAME_SAMPLES"});
+    EXPECT_GT(four.variance / one.variance, 0.9);
+}
+
+// ---- The boiling filter against a loop
+
+struct Reservoirs {
+    int width_px, height_px;
+    std::vector<Reservoir> values;
+};
+
+// Weights over some decades, one in five empty.
+Reservoirs draw_reservoirs(int width_px, int height_px) {
+    test::Draws draws(5);
+    Reservoirs reservoirs{width_px, height_px, {}};
+    for (int i = 0; i < width_px * height_px; ++i) {
+        Reservoir r = empty_reservoir();
+        r.confidence = 8.0f;
+        if (draws.uniform() < 0.8) {
+            r.chosen.light = std::uint32_t(i);
+            r.target = float(std::pow(10.0, draws.uniform(-3.0, 1.0)));
+            r.contribution_weight = float(std::pow(10.0, draws.uniform(-1.0, 2.0)));
+        }
+        reservoirs.values.push_back(r);
+    }
+    return reservoirs;
+}
+
+std::vector<Reservoir> filter_on_gl(const Reservoirs& in, float limit) {
+    std::vector<glm::uvec4> rows;
+    for (const Reservoir& r : in.values) {
+        glm::uvec4 row0, row1;
+        pack_reservoir(r, row0, row1);
+        rows.push_back(row0);
+        rows.push_back(row1);
+    }
+    RowBuffer buffer("reservoirs", rows.size() * sizeof(glm::uvec4), BufferUse::DYNAMIC, GL_RGBA32UI);
+    buffer.buffer().upload(0, std::span<const glm::uvec4>(rows));
+    FrameBlock block{};
+    block.frame_size = glm::uvec4(in.width_px, in.height_px, 0, 0);
+    Buffer frame("frame", sizeof(FrameBlock), BufferUse::DYNAMIC);
+    frame.upload(0, std::span<const FrameBlock>(&block, 1));
+    frame.bind_uniform(BLOCK_FRAME);
+    ProgramLibrary programs;
+    const Program& program = programs.compute("direct/boiling_filter");
+    program.set("limit", limit);
+    program.use();
+    buffer.texture().bind(UNIT_PASS_A);
+    buffer.buffer().bind_storage(0);
+    glDispatchCompute(GLuint(in.width_px + 7) / 8, GLuint(in.height_px + 7) / 8, 1);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    rows = buffer.buffer().download<glm::uvec4>();
+    std::vector<Reservoir> out;
+    for (std::size_t i = 0; i < in.values.size(); ++i)
+        out.push_back(unpack_reservoir(rows[2 * i], rows[2 * i + 1]));
+    return out;
+}
+
+// Mean weight of the block of 8 x 8 that holds (x, y), over reservoirs that hold a sample.
+float block_mean(const Reservoirs& in, int x, int y) {
+    float sum = 0.0f, count = 0.0f;
+    for (int by = y / 8 * 8; by < std::min(y / 8 * 8 + 8, in.height_px); ++by) {
+        for (int bx = x / 8 * 8; bx < std::min(x / 8 * 8 + 8, in.width_px); ++bx) {
+            const Reservoir& r = in.values[std::size_t(by * in.width_px + bx)];
+            sum += r.target * r.contribution_weight;
+            count += r.contribution_weight > 0.0f ? 1.0f : 0.0f;
+        }
+    }
+    return count > 0.0f ? sum / count : 0.0f;
+}
+
+TEST(BoilingFilter, DropsThoseThatOutweighTheirBlockAndNoOthers) {
+    const auto context = create_context({});
+    const Reservoirs in = draw_reservoirs(37, 21);  // blocks that the picture's edge cuts
+    constexpr float LIMIT = 4.0f;
+    const std::vector<Reservoir> out = filter_on_gl(in, LIMIT);
+    int dropped = 0, wrong = 0;
+    for (int y = 0; y < in.height_px; ++y) {
+        for (int x = 0; x < in.width_px; ++x) {
+            const std::size_t i = std::size_t(y * in.width_px + x);
+            const Reservoir& r = in.values[i];
+            const bool drops = r.target * r.contribution_weight > LIMIT * block_mean(in, x, y);
+            dropped += drops;
+            wrong += out[i].contribution_weight != (drops ? 0.0f : r.contribution_weight);
+            wrong += out[i].confidence != r.confidence || out[i].target != r.target;
+        }
+    }
+    EXPECT_GT(dropped, 10);
+    EXPECT_EQ(wrong, 0);
+}
+
+}  // namespace
+}  // namespace tarn

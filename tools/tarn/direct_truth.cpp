@@ -1,0 +1,39 @@
+#include "direct_truth.h"
+
+#include "bench/reference_cache.h"
+#include "core/error.h"
+#include "core/interrupt.h"
+#include "silhouettes.h"
+
+namespace tarn {
+namespace {
+
+// Far from the seeds that methods get: the reference must share no random numbers with what it judges.
+constexpr std::uint32_t REFERENCE_SEED = 0x5eed0001u;
+
+}  // namespace
+
+ReferenceSettings direct_truth_settings(const RenderOptions& options, const CameraRecord& camera, int spp) {
+    ReferenceSettings settings;
+    settings.width = options.scene.width;
+    settings.height = options.scene.height;
+    settings.camera = camera;
+    settings.direct_only = true;
+    settings.spp = std::uint64_t(spp);
+    settings.seed = REFERENCE_SEED;
+    settings.cancel = &interrupt_flag();
+    return settings;
+}
+
+Truth find_direct_truth(RenderSession& session, const RenderOptions& options,
+                        const ReferenceSettings& settings) {
+    const ReferenceResult reference =
+        ReferenceCache(default_cache_folder()).get(session.loaded().world, session.tracer(), settings);
+    if (reference.cancelled) throw Error("interrupted while the reference was rendered");
+    FrameInput input;
+    input.camera = settings.camera;
+    return make_truth(reference, find_silhouettes(session.renderer(), session.tracer(), input),
+                      options.exposure_ev);
+}
+
+}  // namespace tarn

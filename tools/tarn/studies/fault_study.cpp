@@ -1,0 +1,241 @@
+// tarn study faults: does the benchmark see what it is there to see? Known faults are put into one of two
+// methods, the renderer being real, and the results held against those of a run without: each fault must show
+// in its own column, and nothing in the other method's.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "bench/bench_run.h"
+#include "bench/compare_results.h"
+#include "bench/results.h"
+#include "core/error.h"
+#include "core/interrupt.h"
+#include "core/log.h"
+#include "direct_truth.h"
+#include "renderer_source.h"
+#include "studies/study.h"
+
+namespace tarn {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct FaultStudy {
+    RenderOptions options;
+    int seeds = 8;
+    int frames = 16;
+    int reference_spp = 1024;
+};
+
+enum class Fault { NONE, BRIGHTER, SLOW_PASS, BIASED, DROPPED_FRAME };
+
+constexpr double BRIGHTER_BY = 1.02;
+constexpr double SLOWER_BY = 0.2;        // of the pass
+constexpr double BIAS = 0.05;            // of the picture's mean, on every pixel
+constexpr std::uint32_t LOST_FRAME = 5;  // of each sequence
+constexpr const char* SLOW_PASS_NAME = "direct/candidates";
+constexpr std::size_t FAULTY_METHOD = 1;  // of METHODS
+constexpr const char* METHODS = "uniform,ris";
+
+// The renderer with a fault in one of its methods.
+class FaultySource : public FrameSource {
+  public:
+    FaultySource(RendererSource& source, Fault fault, double mean_radiance)
+        : source_(source), fault_(fault), mean_radiance_(mean_radiance) {}
+
+    RenderedFrame render(const FrameRequest& request) override {
+        RenderedFrame frame = source_.render(request);
+        if (request.method != FAULTY_METHOD) return frame;
+        if (request.starts) frames_ = 0;
+        switch (fault_) {
+            case Fault::NONE:
+                break;
+            case Fault::BRIGHTER:
+                for (float& value : frame.radiance.values) value *= float(BRIGHTER_BY);
+                break;
+            case Fault::SLOW_PASS:
+                slow_down(frame.timings);
+                break;
+            case Fault::BIASED:
+                for (float& value : frame.radiance.values) value += float(BIAS * mean_radiance_);
+                break;
+            case Fault::DROPPED_FRAME:
+                if (frames_ == LOST_FRAME) frame.radiance = before_;
+                before_ = frame.radiance;
+                break;
+        }
+        ++frames_;
+        return frame;
+    }
+
+    std::map<std::string, std::uint64_t> read_counters(std::size_t method) override {
+        return source_.read_counters(method);
+    }
+
+  private:
+    // Works on for as long as the pass should have taken, by the clock.
+    static void slow_down(FrameTimings& timings) {
+        using Clock = std::chrono::steady_clock;
+        for (PassTiming& pass : timings.passes) {
+            if (pass.name != SLOW_PASS_NAME) continue;
+            const auto start = Clock::now();
+            double ms = 0.0;
+            while (ms < SLOWER_BY * pass.ms)
+                ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+            pass.ms += ms;
+            timings.frame_ms += ms;
+        }
+    }
+
+    RendererSource& source_;
+    Fault fault_;
+    double mean_radiance_;
+    std::uint32_t frames_ = 0;
+    Image before_;
+};
+
+struct Bench {
+    const FaultStudy& study;
+    const Truth& truth;
+    RendererSource& source;
+
+    // Results as tarn bench would write them, without budgets.
+    Json run(Fault fault) const {
+        BenchPlan plan;
+        plan.methods = parse_methods(METHODS);
+        plan.seeds = study.seeds;
+        plan.first_seed = study.options.scene.seed;
+        plan.frames = study.frames;
+        const TemporaryFolder folder;
+        const WorkFolder work(folder.path() / "unfinished", {{"study", "faults"}});
+        FaultySource faulty(source, fault, mean_finite_value(truth.radiance));
+        const std::vector<Cell> cells = plan_cells(plan, faulty, work);
+        measure_cells(plan, cells, faulty, truth, work, interrupt_flag());
+        Json scene = {{"name", study.options.scene.scene.stem().string()}, {"camera", ""}};
+        scene["width"] = study.options.scene.width;
+        scene["height"] = study.options.scene.height;
+        scene["methods"] = describe_methods(plan, cells, truth, work, folder.path(), "fault");
+        Json results = {{"format", RESULTS_FORMAT}, {"version", RESULTS_VERSION}};
+        results["settings"] = {{"first_seed", plan.first_seed}};
+        results["scenes"] = Json::array({std::move(scene)});
+        return results;
+    }
+};
+
+const Json& mean_cell(const Json& results) {
+    return results["scenes"][0]["methods"][FAULTY_METHOD]["cells"][1];
+}
+
+// A fault, the column that must show it, and what that column says.
+struct Expectation {
+    const char* sentence;
+    Fault fault;
+    const char* finding;  // part of the comparison's line; empty: no line at all
+    std::function<std::string(const Json& results, const Truth& truth)> column;  // empty text: it is not seen
+};
+
+std::string see_energy(const Json& results, const Truth&) {
+    const Json& ratio = mean_cell(results)["errors"]["mean_ratio"];
+    const double low = ratio["low"], high = ratio["high"];
+    return low > 1.0 && low <= BRIGHTER_BY && BRIGHTER_BY <= high
+               ? fmt::format("energy {:.4f} .. {:.4f}", low, high)
+               : "";
+}
+
+std::string see_bias(const Json& results, const Truth& truth) {
+    const Json& bias = mean_cell(results)["bias"];
+    const double low = bias["low"], high = bias["high"];
+    const double added = BIAS * mean_finite_value(truth.radiance) * std::exp2(double(truth.exposure_ev));
+    return low > 0.0 && low <= added * added && added * added <= high
+               ? fmt::format("bias^2 {:.3g} .. {:.3g}, planted {:.3g}", low, high, added * added)
+               : "";
+}
+
+std::string see_repeated_frames(const Json& results, const Truth&) {
+    const int count = mean_cell(results)["counts"]["repeated_frames"];
+    return count > 0 ? fmt::format("{} repeated frames", count) : "";
+}
+
+std::string see_comparison_alone(const Json&, const Truth&) {
+    return "-";
+}
+
+const Expectation EXPECTATIONS[] = {
+    {"nothing", Fault::NONE, "", see_comparison_alone},
+    {"2 % brighter", Fault::BRIGHTER, ": mean_ratio", see_energy},
+    {"a pass 20 % slower", Fault::SLOW_PASS, ": pass direct/candidates", see_comparison_alone},
+    {"5 % of the mean added", Fault::BIASED, ": mse", see_bias},
+    {"a dropped frame", Fault::DROPPED_FRAME, ": repeated_frames", see_repeated_frames},
+};
+
+// Whether the comparison tells of what it must, and of nothing in the other method.
+bool tells(const Json& comparison, const Expectation& expectation, std::string& text) {
+    bool told = false, innocent = true;
+    for (const Json& finding : comparison["findings"]) {
+        const std::string what = finding["what"];
+        innocent = innocent && what.find(", ris,") != std::string::npos;
+        if (*expectation.finding == '\0' || what.find(expectation.finding) == std::string::npos || told)
+            continue;
+        told = true;
+        text = fmt::format("{} {:.4g} -> {:.4g}", what.substr(what.rfind(": ") + 2),
+                           finding["before"].get<double>(), finding["after"].get<double>());
+    }
+    if (*expectation.finding == '\0') return comparison["findings"].empty();
+    return told && innocent;
+}
+
+void run(const FaultStudy& study) {
+    RenderSession session(study.options);
+    const CameraRecord camera =
+        choose_camera(study.options.scene, session.loaded().scene, session.loaded().world);
+    const Truth truth = find_direct_truth(session, study.options,
+                                          direct_truth_settings(study.options, camera, study.reference_spp));
+    RendererSource source(session.loaded().world, session.tracer(), study.options.scene.width,
+                          study.options.scene.height, 2);
+    source.set_camera(camera);
+    const Bench bench{study, truth, source};
+    bench.run(Fault::NONE);  // compiles, and fills the caches
+    const Json before = bench.run(Fault::NONE);
+    fmt::print("{:<24} {:<6} {:<46} {}\n", "put into ris", "seen", "column",
+               "comparison with the run before");
+    int missed = 0;
+    for (const Expectation& expectation : EXPECTATIONS) {
+        const Json after = bench.run(expectation.fault);
+        const Json comparison = compare_results(before, after, "the run before");
+        std::string line = comparison["findings"].empty() ? "nothing changed beyond the noise" : "";
+        const std::string column = expectation.column(after, truth);
+        const bool seen = tells(comparison, expectation, line) && !column.empty();
+        missed += !seen;
+        fmt::print("{:<24} {:<6} {:<46} {}\n", expectation.sentence, seen ? "yes" : "NO", column, line);
+        if (!seen) print_comparison(comparison);
+    }
+    if (missed > 0)
+        throw Error("study faults: {} of {} not as they should be", missed, std::size(EXPECTATIONS));
+}
+
+}  // namespace
+
+void add_fault_study(CLI::App& app) {
+    auto study = std::make_shared<FaultStudy>();
+    CLI::App* sub =
+        app.add_subcommand("faults", "Whether the benchmark sees faults that are put into a method");
+    study->options.scene.scene = "cornell";
+    study->options.scene.width = 192;
+    study->options.scene.height = 108;
+    add_render_options(*sub, study->options);
+    sub->get_option("SCENE")->required(false);
+    for (const Setting& setting : setting_table()) sub->remove_option(sub->get_option("--" + setting.name));
+    sub->remove_option(sub->get_option("--json"));
+    sub->add_option("--seeds", study->seeds, "Independent seeds")
+        ->check(CLI::Range(3, 1000))
+        ->capture_default_str();
+    sub->add_option("--frames", study->frames, "Frames of each sequence, a power of two")
+        ->check(CLI::IsMember({8, 16, 32, 64}))
+        ->capture_default_str();
+    sub->add_option("--reference-spp", study->reference_spp, "Samples a pixel of the reference")
+        ->check(CLI::Range(2, 1000000))
+        ->capture_default_str();
+    sub->callback([study] { run(*study); });
+}
+
+}  // namespace tarn
