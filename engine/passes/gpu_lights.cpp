@@ -11,6 +11,23 @@ namespace {
 
 constexpr std::size_t ROW_BYTES = sizeof(glm::uvec4);
 
+// Lights that stand still between two that moved cost less to write again than a call of their own.
+constexpr std::uint32_t GAP = 32;
+
+// Rows of the lights that changed, in few ranges.
+std::vector<IndexRange> list_changed_rows(const WorldLights& lights) {
+    std::vector<IndexRange> ranges;
+    for (const IndexRange& range : lights.changed) {
+        if (!ranges.empty() && range.first <= ranges.back().last + GAP) {
+            ranges.back().last = range.last;
+        } else {
+            ranges.push_back(range);
+        }
+    }
+    for (IndexRange& range : ranges) range = {range.first * LIGHT_ROWS, range.last * LIGHT_ROWS};
+    return ranges;
+}
+
 // Pairs of (index in the last frame, index now); see the head of gpu_lights.h.
 std::vector<glm::uvec4> make_remap(const std::vector<std::uint64_t>& previous,
                                    const std::vector<std::uint64_t>& current) {
@@ -57,6 +74,11 @@ void GpuLights::upload_all(const WorldLights& lights) {
     structure_revision_ = lights.structure_revision;
 }
 
+void GpuLights::upload_rows(const WorldLights& lights, const IndexRange& rows) {
+    rows_->buffer().upload(rows.first * ROW_BYTES,
+                           std::span(lights.rows).subspan(rows.first, rows.last - rows.first));
+}
+
 void GpuLights::copy_rows(std::size_t from_row, std::size_t to_row, std::size_t count) {
     rows_->buffer().copy(from_row * ROW_BYTES, to_row * ROW_BYTES, count * ROW_BYTES);
 }
@@ -64,15 +86,13 @@ void GpuLights::copy_rows(std::size_t from_row, std::size_t to_row, std::size_t 
 void GpuLights::update(const WorldLights& lights) {
     if (lights.revision == revision_) return;
     have_changed_ = true;
-    differs_ = true;
-    // `first_changed` is about the latest update alone: after two of them all rows are uploaded.
+    // `changed` is about the latest update alone: after two of them all rows are uploaded.
     if (lights.structure_revision == structure_revision_ && lights.revision == revision_ + 1) {
-        // Rows moved, no light came or went: their range alone.
-        const std::size_t first = std::size_t(lights.first_changed) * LIGHT_ROWS;
-        const std::size_t last = std::size_t(lights.last_changed) * LIGHT_ROWS;
-        rows_->buffer().upload(first * ROW_BYTES, std::span(lights.rows).subspan(first, last - first));
-        changed_first_row_ = std::min(changed_first_row_, first);
-        changed_last_row_ = std::max(changed_last_row_, last);
+        // Rows moved, no light came or went: they alone.
+        for (const IndexRange& rows : list_changed_rows(lights)) {
+            upload_rows(lights, rows);
+            changed_rows_.push_back(rows);
+        }
         revision_ = lights.revision;
         return;
     }
@@ -84,20 +104,17 @@ void GpuLights::update(const WorldLights& lights) {
                              old_capacity * ROW_BYTES);
     }
     upload_all(lights);
-    changed_first_row_ = 0;
-    changed_last_row_ = row_count_;
+    changed_rows_.assign(1, {0u, std::uint32_t(row_count_)});
     remapped_ = identities_ != previous_identities_;
     if (remapped_)
         rows_->buffer().upload(2 * capacity_ * ROW_BYTES, make_remap(previous_identities_, identities_));
 }
 
 void GpuLights::advance() {
-    if (!differs_) return;
-    copy_rows(changed_first_row_, capacity_ + changed_first_row_, changed_last_row_ - changed_first_row_);
+    for (const IndexRange& rows : changed_rows_)
+        copy_rows(rows.first, capacity_ + rows.first, rows.last - rows.first);
     if (remapped_) previous_identities_ = identities_;
-    changed_first_row_ = SIZE_MAX;
-    changed_last_row_ = 0;
-    differs_ = false;
+    changed_rows_.clear();
     remapped_ = false;
 }
 

@@ -37,6 +37,7 @@ class GpuLights {
   private:
     void allocate(const WorldLights& lights);
     void upload_all(const WorldLights& lights);
+    void upload_rows(const WorldLights& lights, const IndexRange& rows);
     void copy_rows(std::size_t from_row, std::size_t to_row, std::size_t count);
 
     std::optional<RowBuffer> rows_;
@@ -47,9 +48,7 @@ class GpuLights {
     std::vector<std::uint64_t> previous_identities_;  // of the last frame's
     std::uint64_t revision_ = 0;
     std::uint64_t structure_revision_ = 0;
-    std::size_t changed_first_row_ = SIZE_MAX;  // where the two frames' rows differ
-    std::size_t changed_last_row_ = 0;
-    bool differs_ = false;
+    std::vector<IndexRange> changed_rows_;  // where the two frames' rows may differ
     bool remapped_ = false;
     bool have_changed_ = false;
 };

@@ -220,6 +220,22 @@ void add_instance_bounds(const Scene& scene, const Instance& instance, const Pos
 
 }  // namespace
 
+void apply_animations(const Scene& scene, double time_s,
+                      const std::function<AnimatedNode(NodeIndex)>& find_node) {
+    if (time_s < 0.0) return;
+    for (const Animation& animation : scene.animations) {
+        const double looped_s = animation.duration_s > 0.0 ? std::fmod(time_s, animation.duration_s) : 0.0;
+        for (const AnimationChannel& channel : animation.channels) {
+            const AnimatedNode node = find_node(channel.node);
+            apply_channel(channel, looped_s, node.local, node.morph_weights);
+        }
+    }
+}
+
+glm::dmat4 local_matrix(const Node& node, const Transform& local) {
+    return node.matrix ? *node.matrix : matrix_of(local);
+}
+
 Pose evaluate_pose(const Scene& scene, double time_s) {
     Pose pose;
     std::vector<Transform> locals;
@@ -227,16 +243,11 @@ Pose evaluate_pose(const Scene& scene, double time_s) {
         locals.push_back(node.local);
         pose.morph_weights.push_back(node.morph_weights);
     }
-    for (const Animation& animation : scene.animations) {
-        if (time_s < 0.0) break;
-        const double looped_s = animation.duration_s > 0.0 ? std::fmod(time_s, animation.duration_s) : 0.0;
-        for (const AnimationChannel& channel : animation.channels) {
-            apply_channel(channel, looped_s, at(locals, channel.node), at(pose.morph_weights, channel.node));
-        }
-    }
+    apply_animations(scene, time_s, [&](NodeIndex node) {
+        return AnimatedNode{at(locals, node), at(pose.morph_weights, node)};
+    });
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-        const Node& node = scene.nodes[i];
-        pose.world_from_node.push_back(node.matrix ? *node.matrix : matrix_of(locals[i]));
+        pose.world_from_node.push_back(local_matrix(scene.nodes[i], locals[i]));
     }
     accumulate_transforms(scene, pose.world_from_node);
     return pose;

@@ -1,6 +1,7 @@
 // Where everything is at one moment: animation evaluated, transforms multiplied out, vertices deformed.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "scene/scene.h"
@@ -15,6 +16,20 @@ struct Pose {
 // The pose at `time_s`: every animation of the scene plays at once, each looping over its own duration.
 // `time_s` < 0 gives the rest pose.
 Pose evaluate_pose(const Scene& scene, double time_s);
+
+// What animations write of a node.
+struct AnimatedNode {
+    Transform& local;
+    std::vector<float>& morph_weights;
+};
+
+// Lets every animation write into the nodes that `find_node` gives for their channels. Nothing for
+// `time_s` < 0, the rest pose.
+void apply_animations(const Scene& scene, double time_s,
+                      const std::function<AnimatedNode(NodeIndex)>& find_node);
+
+// Where `local` places a node in its parent; a matrix that the file gave goes first.
+glm::dmat4 local_matrix(const Node& node, const Transform& local);
 
 // Vertices of one instance after morph targets and skin.
 struct DeformedMesh {

@@ -10,6 +10,7 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -212,6 +213,28 @@ struct Animation {
 // ---- The whole
 // ------------------------------------------------------------------------------------------------------
 
+// Which nodes were moved, in order. A reader remembers how many it has followed.
+class NodeMoves {
+  public:
+    void add(NodeIndex node) { nodes_.push_back(node); }
+    // Forgets what all readers have followed; one that has not looks at the whole scene again.
+    void clear() {
+        first_ += nodes_.size();
+        nodes_.clear();
+    }
+    // Moves ever made.
+    std::uint64_t count() const { return first_ + nodes_.size(); }
+    // Those after the first `followed`; nullopt where they are forgotten.
+    std::optional<std::span<const NodeIndex>> since(std::uint64_t followed) const {
+        if (followed < first_ || followed > count()) return std::nullopt;
+        return std::span(nodes_).subspan(std::size_t(followed - first_));
+    }
+
+  private:
+    std::uint64_t first_ = 0;
+    std::vector<NodeIndex> nodes_;
+};
+
 struct Scene {
     std::string name;
     std::vector<Mesh> meshes;
@@ -228,6 +251,8 @@ struct Scene {
     // To be increased by whoever edits a table, so that update_world looks for the edit. Nodes and instances
     // keep their indices: lights are known by them.
     std::uint64_t revision = 0;
+    // Instead of that, where nothing but nodes' transforms was edited: an update then looks at them alone.
+    NodeMoves moves;
 
     std::vector<std::string> extensions_used;          // as the file lists them
     std::vector<std::string> extensions_honoured;      // those of them that Tarn reads

@@ -16,9 +16,10 @@ void update_materials(World& world, const Scene& scene);
 // lights.cpp: punctual lights and emissive triangles, with their table by power, all anew.
 void rebuild_lights(World& world, const Scene& scene, const Pose& pose);
 
-// lights_update.cpp: only what differs from the table. `edited`: lights and materials may have changed, not
-// only where things are.
-void update_lights(World& world, const Scene& scene, const Pose& pose, bool edited);
+// lights_update.cpp: only what differs from the table, after edits of lights and materials.
+void update_lights(World& world, const Scene& scene, const Pose& pose);
+// The same where nothing but transforms has changed: of the nodes that the pose has touched.
+void move_lights(World& world, const Scene& scene, const LivePose& pose);
 
 // environment.cpp
 WorldEnvironment make_environment(const Image& radiance);

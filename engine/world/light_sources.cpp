@@ -59,6 +59,11 @@ double mean_luminance(SceneAccess& access, const Light& light, const EmissionMap
 
 }  // namespace
 
+Light place_punctual_light(const World& world, const Scene& scene, const Pose& pose, NodeIndex node) {
+    return make_punctual(at(scene.lights, at(scene.nodes, node).light), at(pose.world_from_node, node),
+                         world.origin_ws);
+}
+
 std::vector<PunctualSource> list_punctual_lights(const World& world, const Scene& scene, const Pose& pose) {
     const double radius = world.bounds.empty() ? 1.0 : 0.5 * glm::length(world.bounds.extent());
     std::vector<PunctualSource> sources;
@@ -66,8 +71,8 @@ std::vector<PunctualSource> list_punctual_lights(const World& world, const Scene
     for (const NodeIndex node : scene.light_nodes) {
         const PunctualLight& light = at(scene.lights, at(scene.nodes, node).light);
         if (max_component(light.intensity) <= 0.0f) continue;
-        sources.push_back({make_punctual(light, at(pose.world_from_node, node), world.origin_ws),
-                           punctual_power(light, radius), identify_punctual(node.value)});
+        sources.push_back({place_punctual_light(world, scene, pose, node), punctual_power(light, radius),
+                           identify_punctual(node.value)});
     }
     return sources;
 }

@@ -17,6 +17,9 @@ struct PunctualSource {
     std::uint64_t identity = 0;
 };
 
+// The light of one node. Lights without intensity are none: see list_punctual_lights.
+Light place_punctual_light(const World& world, const Scene& scene, const Pose& pose, NodeIndex node);
+
 // The punctual lights that shine, in the order of Scene::light_nodes.
 std::vector<PunctualSource> list_punctual_lights(const World& world, const Scene& scene, const Pose& pose);
 

@@ -78,9 +78,12 @@ void add_triangle_lights(World& world) {
     });
 }
 
-void add_punctual_lights(WorldLights& lights, const std::vector<PunctualSource>& sources) {
+void add_punctual_lights(WorldLights& lights, const std::vector<PunctualSource>& sources,
+                         std::size_t node_count) {
     lights.rows.resize(sources.size() * LIGHT_ROWS);
+    lights.light_of_node.assign(node_count, INVALID_INDEX);
     for (const PunctualSource& source : sources) {
+        lights.light_of_node[node_of_punctual(source.identity)] = lights.count;
         write_light(lights, lights.count++, source.light);
         lights.powers.push_back(source.power);
         lights.identities.push_back(source.identity);
@@ -137,7 +140,7 @@ void rebuild_lights(World& world, const Scene& scene, const Pose& pose) {
     const std::uint64_t order = world.lights.order_revision, structure = world.lights.structure_revision,
                         revision = world.lights.revision;
     WorldLights& lights = world.lights = WorldLights{};
-    add_punctual_lights(lights, list_punctual_lights(world, scene, pose));
+    add_punctual_lights(lights, list_punctual_lights(world, scene, pose), scene.nodes.size());
     add_triangle_lights(world);
     append_emission_maps(world);
     rebuild_alias_table(lights);

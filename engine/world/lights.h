@@ -44,18 +44,16 @@ struct WorldLights {
     // primitive. No two lights share one.
     std::vector<std::uint64_t> identities;
     std::uint32_t count = 0;
-    std::uint32_t punctual_count = 0;  // these come first
+    std::uint32_t punctual_count = 0;          // these come first
+    std::vector<std::uint32_t> light_of_node;  // the node's punctual light, or INVALID_INDEX
     // Triangle lights by where they are: instance_first[i] is the index into `light_of_primitive` of instance
     // i's first primitive, or INVALID_INDEX where the instance does not emit.
     std::vector<std::uint32_t> instance_first;
     std::vector<std::uint32_t> light_of_primitive;
     std::vector<EmissiveInstance> emissive_instances;  // in the order of their lights
 
-    // Lights whose rows the latest build_world or update_world wrote: ascending ranges that do not touch, and
-    // the one range around them all.
+    // Lights whose rows the latest build_world or update_world wrote: ascending ranges that do not touch.
     std::vector<IndexRange> changed;
-    std::uint32_t first_changed = 0;
-    std::uint32_t last_changed = 0;  // one past the last
     std::uint64_t order_revision = 0;
     std::uint64_t structure_revision = 0;
     std::uint64_t revision = 0;
@@ -67,6 +65,9 @@ inline constexpr double POWER_TOLERANCE = 1e-3;
 // Identities, as in WorldLights.
 inline std::uint64_t identify_punctual(std::uint32_t node) {
     return (std::uint64_t(1) << 63) | node;
+}
+inline std::uint32_t node_of_punctual(std::uint64_t identity) {
+    return std::uint32_t(identity);
 }
 inline std::uint64_t identify_triangle(std::uint32_t scene_instance, std::uint32_t primitive) {
     return (std::uint64_t(scene_instance) << 32) | primitive;

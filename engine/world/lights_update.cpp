@@ -147,20 +147,13 @@ void set_changed(WorldLights& lights, std::vector<IndexRange> ranges) {
             lights.changed.push_back(range);
         }
     }
-    lights.first_changed = lights.changed.empty() ? 0 : lights.changed.front().first;
-    lights.last_changed = lights.changed.empty() ? 0 : lights.changed.back().last;
 }
 
-void update_lights(World& world, const Scene& scene, const Pose& pose, bool edited) {
+namespace {
+
+// Takes over what was found; all anew where lights came or went.
+void finish_update(World& world, const Scene& scene, const Pose& pose, Findings& findings) {
     WorldLights& lights = world.lights;
-    const std::vector<PunctualSource> punctual = list_punctual_lights(world, scene, pose);
-    if (!is_same_order(lights, punctual) || (edited && !is_same_emitters(world))) {
-        rebuild_lights(world, scene, pose);
-        return;
-    }
-    Findings findings;
-    update_punctual_lights(lights, punctual, findings);
-    update_triangle_lights(world, edited, findings);
     if (findings.order_changed) {
         rebuild_lights(world, scene, pose);
         return;
@@ -171,6 +164,48 @@ void update_lights(World& world, const Scene& scene, const Pose& pose, bool edit
         ++lights.structure_revision;
     }
     if (findings.powers_changed || !lights.changed.empty()) ++lights.revision;
+}
+
+// Lights of successive nodes make one range.
+void move_punctual_lights(World& world, const Scene& scene, const LivePose& pose, Findings& findings) {
+    WorldLights& lights = world.lights;
+    IndexRange run;
+    for (const NodeIndex node : pose.touched()) {
+        const std::uint32_t index = at(lights.light_of_node, node);
+        if (index == INVALID_INDEX) continue;
+        IndexRange range;
+        write_if_changed(lights, index, place_punctual_light(world, scene, pose.pose(), node), range);
+        if (range.last == 0) continue;
+        if (range.first == run.last) {
+            run.last = range.last;
+        } else {
+            findings.changed.push_back(run);
+            run = range;
+        }
+    }
+    findings.changed.push_back(run);
+}
+
+}  // namespace
+
+void update_lights(World& world, const Scene& scene, const Pose& pose) {
+    WorldLights& lights = world.lights;
+    const std::vector<PunctualSource> punctual = list_punctual_lights(world, scene, pose);
+    if (!is_same_order(lights, punctual) || !is_same_emitters(world)) {
+        rebuild_lights(world, scene, pose);
+        return;
+    }
+    Findings findings;
+    update_punctual_lights(lights, punctual, findings);
+    update_triangle_lights(world, true, findings);
+    finish_update(world, scene, pose, findings);
+}
+
+void move_lights(World& world, const Scene& scene, const LivePose& pose) {
+    Findings findings;
+    move_punctual_lights(world, scene, pose, findings);
+    update_triangle_lights(world, false, findings);
+    finish_update(world, scene, pose.pose(), findings);
 }
 
 }  // namespace tarn

@@ -23,8 +23,9 @@ Bounds relative_to(const Bounds& bounds_ws, const glm::dvec3& origin_ws) {
 }  // namespace
 
 World build_world(const Scene& scene, const WorldOptions& options) {
-    const Pose pose = evaluate_pose(scene, options.time_s);
     World world;
+    world.pose.reset(scene, options.time_s);
+    const Pose& pose = world.pose.pose();
     world.is_animated = !scene.animations.empty();
     const Bounds bounds_ws = compute_bounds(scene, pose);
     world.origin_ws = choose_origin(bounds_ws);
@@ -34,6 +35,7 @@ World build_world(const Scene& scene, const WorldOptions& options) {
     place_instances(world, scene, pose);
     rebuild_lights(world, scene, pose);
     world.scene_revision = scene.revision;
+    world.moves_followed = scene.moves.count();
     if (options.environment) {
         world.environment = make_environment(*options.environment);
     } else if (world.lights.count == 0) {
@@ -43,16 +45,26 @@ World build_world(const Scene& scene, const WorldOptions& options) {
 }
 
 void update_world(World& world, const Scene& scene, double time_s) {
-    const bool edited = scene.revision != world.scene_revision;
-    if (scene.animations.empty() && !edited) {
+    const auto moved = scene.moves.since(world.moves_followed);
+    const bool edited = scene.revision != world.scene_revision || !moved;
+    if (scene.animations.empty() && !edited && moved->empty()) {
         set_changed(world.lights, {});
         return;
     }
-    const Pose pose = evaluate_pose(scene, time_s);
-    if (edited) update_materials(world, scene);
-    place_instances(world, scene, pose);
-    update_lights(world, scene, pose, edited);
+    if (edited) {
+        world.pose.reset(scene, time_s);
+        update_materials(world, scene);
+    } else {
+        world.pose.follow(scene, time_s, *moved);
+    }
+    place_instances(world, scene, world.pose.pose());
+    if (edited) {
+        update_lights(world, scene, world.pose.pose());
+    } else {
+        move_lights(world, scene, world.pose);
+    }
     world.scene_revision = scene.revision;
+    world.moves_followed = scene.moves.count();
 }
 
 }  // namespace tarn

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/image.h"
-#include "scene/pose.h"
+#include "scene/live_pose.h"
 #include "scene/scene.h"
 #include "shared/interface/records.h"
 #include "world/light_tree.h"
@@ -71,7 +71,9 @@ struct World {
     WorldLights lights;
     LightTree light_tree;  // empty until update_light_tree is called
     WorldEnvironment environment;
+    LivePose pose;                        // of the scene at the latest update
     std::uint64_t scene_revision = 0;     // Scene::revision that this world follows
+    std::uint64_t moves_followed = 0;     // of Scene::moves
     std::uint64_t material_revision = 0;  // grows when material rows change
 
     std::uint32_t material_of(std::uint32_t instance) const {
@@ -92,12 +94,13 @@ Image make_even_sky(float radiance);
 World build_world(const Scene& scene, const WorldOptions& options = {});
 
 // Moves what `time_s` moves: instance rows, deformed vertices, lights. Where Scene::revision has grown it
-// also follows edits: of nodes' transforms, of lights and light_nodes, and of materials' factors. (Meshes,
-// instances, texture slots and alpha modes are those of build_world, and so is the sky.) Only what changed is
-// written, revisions grow where something may have changed, and WorldLights::changed says which lights.
-// Without animations and edits nothing is looked at. `bounds` and `origin_ws` stay those of the first moment:
-// they set the near plane, an orthographic camera's depth range and how often a directional light is drawn,
-// none of which is wrong for what moves out of them by less than the scene's size.
+// also follows edits: of nodes' transforms, of lights and light_nodes, and of materials' factors; where only
+// Scene::moves has, of those nodes and what hangs below them, at a cost that does not grow with the others.
+// (Meshes, instances, texture slots and alpha modes are those of build_world, and so is the sky.) Only what
+// changed is written, revisions grow where something may have changed, and WorldLights::changed says which
+// lights. Without animations and edits nothing is looked at. `bounds` and `origin_ws` stay those of the first
+// moment: they set the near plane, an orthographic camera's depth range and how often a directional light is
+// drawn, none of which is wrong for what moves out of them by less than the scene's size.
 void update_world(World& world, const Scene& scene, double time_s);
 
 // The camera at `index` of the scene, in this pose; nullopt when there is no such camera. Throws Error where

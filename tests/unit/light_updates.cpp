@@ -118,7 +118,6 @@ TEST(LightUpdates, WhereNothingMovedNothingIsWrittenAndNoRevisionGrows) {
     movable.update(world);  // edited, but the same
     EXPECT_EQ(Revisions(world.lights), before);
     EXPECT_TRUE(world.lights.changed.empty());
-    EXPECT_EQ(world.lights.first_changed, world.lights.last_changed);
     EXPECT_EQ(world.lights.rows, rows);
 }
 
@@ -136,8 +135,6 @@ TEST(LightUpdates, ARigidMotionWritesOnlyTheTrianglesOfItsInstance) {
     const std::vector<IndexRange> moved = {{first + 3 * LAMP_TRIANGLES, first + 5 * LAMP_TRIANGLES},
                                            {first + 9 * LAMP_TRIANGLES, first + 10 * LAMP_TRIANGLES}};
     EXPECT_EQ(world.lights.changed, moved);
-    EXPECT_EQ(world.lights.first_changed, moved.front().first);
-    EXPECT_EQ(world.lights.last_changed, moved.back().last);
     EXPECT_EQ(world.lights.structure_revision, before.structure_revision);
     EXPECT_EQ(world.lights.revision, before.revision + 1);
     EXPECT_EQ(world.lights.alias_rows, before.alias_rows);
@@ -152,6 +149,47 @@ TEST(LightUpdates, APunctualLightMovesAlone) {
     movable.update(world);
     EXPECT_EQ(world.lights.changed, (std::vector<IndexRange>{{1, 2}}));
     EXPECT_EQ(world.lights.structure_revision, before.structure);
+    expect_as_built(world, movable.scene());
+}
+
+TEST(LightUpdates, NotedMovesComeToTheSameAsAnEdit) {
+    MovableScene movable;
+    World noted = build_world(movable.scene()), edited = noted;
+    test::Draws draws(3);
+    for (int step = 0; step < 5; ++step) {
+        Scene& scene = movable.scene();
+        for (std::uint32_t i = 0; i < scene.nodes.size(); ++i) {
+            if (draws.uniform() < 0.6) continue;
+            if (scene.nodes[i].matrix) {
+                (*scene.nodes[i].matrix)[3] += glm::dvec4(glm::dvec3(draws.unit_vector()), 0.0);
+            } else {
+                scene.nodes[i].local.translation += glm::dvec3(draws.unit_vector());
+            }
+            scene.moves.add(NodeIndex(i));
+        }
+        update_world(noted, scene, -1.0);
+        Scene copy = scene;
+        ++copy.revision;
+        edited.scene_revision = copy.revision - 1;
+        update_world(edited, copy, -1.0);
+        EXPECT_EQ(noted.lights.rows, edited.lights.rows) << step;
+        EXPECT_EQ(noted.lights.changed, edited.lights.changed) << step;
+        EXPECT_EQ(noted.instance_rows, edited.instance_rows) << step;
+        EXPECT_EQ(noted.lights.structure_revision, edited.lights.structure_revision) << step;
+    }
+}
+
+TEST(LightUpdates, AMoveThatIsNotNotedIsNotSeenAndOneThatIsForgottenIs) {
+    MovableScene movable;
+    World world = build_world(movable.scene());
+    const std::vector<glm::uvec4> before = world.lights.rows;
+    movable.node(movable.lamp_nodes[3]).local.translation.y += 1.0;
+    update_world(world, movable.scene(), -1.0);
+    EXPECT_EQ(world.lights.rows, before);
+    movable.scene().moves.add(movable.lamp_nodes[3]);
+    movable.scene().moves.clear();
+    update_world(world, movable.scene(), -1.0);
+    EXPECT_NE(world.lights.rows, before);
     expect_as_built(world, movable.scene());
 }
 

@@ -5,3 +5,4 @@ tarn_test(gltf_materials LABEL unit LIBRARIES tarn_scene nlohmann_json::nlohmann
 tarn_test(gltf_nodes LABEL unit LIBRARIES tarn_scene nlohmann_json::nlohmann_json)
 tarn_test(tangents LABEL unit LIBRARIES tarn_scene nlohmann_json::nlohmann_json)
 tarn_test(pose LABEL unit LIBRARIES tarn_scene nlohmann_json::nlohmann_json)
+tarn_test(live_pose LABEL unit LIBRARIES tarn_scene)

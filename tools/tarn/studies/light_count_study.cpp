@@ -25,7 +25,7 @@ struct LightCountStudy {
     RenderOptions options;
     std::vector<int> counts = {10, 100, 1000, 10000, 100000, 1000000};
     std::string kind = "points";
-    double moving_percent = 10.0;
+    double moving_percent = 1.0;
     int warm_up = 4;
     int frames = 15;
 };
@@ -57,8 +57,8 @@ struct Crowd {
         for (const MovingPoint& point : points) {
             loaded.scene.nodes[point.node].local.translation =
                 point.place_ws + DRIFT_M * std::sin(2.0 * time_s) * point.direction;
+            loaded.scene.moves.add(NodeIndex(point.node));
         }
-        ++loaded.scene.revision;
     }
 
     void add_frame(const LightCountStudy& study, int frame) {
@@ -69,6 +69,7 @@ struct Crowd {
             tracer->update(loaded.world);
             renderer->update();
         });
+        loaded.scene.moves.clear();
         FrameInput input;
         input.camera = camera;
         input.frame = std::uint32_t(frame);
@@ -82,7 +83,7 @@ struct Crowd {
     double total_ms(std::size_t frame) const { return update_ms[frame] + frame_ms[frame]; }
 };
 
-// Points all over the hall, together as bright as its triangles, the first ones moving.
+// Points all over the hall, together as bright as its triangles.
 void add_points(const LightCountStudy& study, Crowd& crowd) {
     Scene& scene = crowd.loaded.scene;
     for (Material& material : scene.materials) material.emission = glm::vec3(0.0f);
@@ -90,7 +91,7 @@ void add_points(const LightCountStudy& study, Crowd& crowd) {
     light.intensity = glm::vec3(float(TOTAL_INTENSITY / crowd.count));
     scene.lights.push_back(light);
     const LightIndex index(std::uint32_t(scene.lights.size() - 1));
-    const int moving = int(std::ceil(crowd.count * study.moving_percent / 100.0));
+    const double moving_share = study.moving_percent / 100.0;
     for (int i = 0; i < crowd.count; ++i) {
         const RandomKey key{std::uint32_t(i), 0u, 1u};
         const glm::vec4 place = random4(key, 0u), towards = random4(key, 1u);
@@ -98,7 +99,7 @@ void add_points(const LightCountStudy& study, Crowd& crowd) {
         node.local.translation = {38.0 * place.x - 19.0, 0.3 + 3.7 * place.y, 38.0 * place.z - 19.0};
         node.light = index;
         scene.light_nodes.push_back(NodeIndex(std::uint32_t(scene.nodes.size())));
-        if (i < moving) {
+        if (std::floor((i + 1) * moving_share) > std::floor(i * moving_share)) {  // all over the table
             const glm::dvec3 direction = glm::normalize(glm::dvec3(towards) - 0.4999);
             crowd.points.push_back({scene.nodes.size(), node.local.translation, direction});
         }
