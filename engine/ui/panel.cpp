@@ -220,8 +220,9 @@ PanelActions draw_panel(ViewerState& state, const ViewerFacts& facts) {
                  ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize);
     ImGui::PushItemWidth(-9.0f * ImGui::GetFontSize());
     draw_headline(facts);
-    if (begin_section("Settings")) draw_settings(state.settings);
+    // What is seen comes first: its place does not depend on which settings apply.
     draw_picture_section(state);
+    if (begin_section("Settings")) draw_settings(state.settings);
     draw_camera_section(state, facts, actions);
     draw_animation_section(state, facts);
     draw_cost_section(facts);
