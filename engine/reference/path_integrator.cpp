@@ -111,7 +111,7 @@ glm::vec3 PathIntegrator::gather_path(Vertex vertex) {
 // -----------------------------------------------------------------------------------------------
 
 // A place on a light or in the sky; its pdf holds every choice that was made.
-SceneAccess::LightCandidate PathIntegrator::draw_light(std::uint32_t dimension) {
+SceneAccess::LightCandidate PathIntegrator::draw_light(const ShadingPoint& point, std::uint32_t dimension) {
     const float sky_probability = scene_.environment_probability();
     const glm::uvec4 bits = random_bits4(key_, dimension + LIGHT_PLACE);
     const float u = random4(key_, dimension + LIGHT_KIND).x;
@@ -121,15 +121,23 @@ SceneAccess::LightCandidate PathIntegrator::draw_light(std::uint32_t dimension) 
         return sky;
     }
     if (scene_.get_light_count() == 0u) return scene_.no_candidate();
-    SceneAccess::LightCandidate light = scene_.draw_light_by_power(bits);
+    SceneAccess::LightCandidate light =
+        settings_.light_tree ? scene_.draw_light_by_tree(bits, point.position, point.shading_normal)
+                             : scene_.draw_light_by_power(bits);
     light.pdf *= 1.0f - sky_probability;
     return light;
+}
+
+// Probability with which draw_light takes a light, the sky left aside.
+float PathIntegrator::light_probability(const ShadingPoint& point, std::uint32_t light) {
+    return settings_.light_tree ? scene_.light_tree_pmf(light, point.position, point.shading_normal)
+                                : world_.lights.pmf[light];
 }
 
 // Direct light at a vertex by one sample of the lights, MIS weight included.
 glm::vec3 PathIntegrator::sample_direct_light(const Vertex& vertex, std::uint32_t dimension) {
     const ShadingPoint& point = vertex.surface.point;
-    const SceneAccess::LightCandidate candidate = draw_light(dimension);
+    const SceneAccess::LightCandidate candidate = draw_light(point, dimension);
     if (!(candidate.pdf > 0.0f)) return glm::vec3(0.0f);
     const IncidentLight incident = scene_.load_incident_light(candidate.drawn, point.position);
     const bool is_sky = candidate.drawn.light == LIGHT_ENVIRONMENT;
@@ -185,22 +193,23 @@ glm::vec3 PathIntegrator::weigh_sky(const glm::vec3& direction, float pdf_brdf) 
 glm::vec3 PathIntegrator::weigh_emission(const Vertex& from, const Vertex& to, const Hit& hit,
                                          float pdf_brdf) {
     if (is_black(to.surface.emission)) return glm::vec3(0.0f);
-    const float pdf_light = light_pdf_solid_angle(from.surface.point.position, hit);
+    const float pdf_light = light_pdf_solid_angle(from.surface.point, hit);
     return to.surface.emission * weigh_brdf_sample(pdf_brdf, pdf_light);
 }
 
 // Density with which draw_light gives the emissive place `hit`, as seen from `point`; 0 where it never does.
-float PathIntegrator::light_pdf_solid_angle(const glm::vec3& point, const Hit& hit) {
+float PathIntegrator::light_pdf_solid_angle(const ShadingPoint& point, const Hit& hit) {
     const std::uint32_t first = world_.lights.instance_first[hit.instance];
     if (first == INVALID_INDEX) return 0.0f;
     const std::uint32_t index = world_.lights.light_of_primitive[first + hit.primitive];
     if (index == INVALID_INDEX) return 0.0f;
     const Light light = scene_.load_light(index);
-    const IncidentLight incident = incident_from_triangle(light, hit.barycentrics, glm::vec3(1.0f), point);
+    const IncidentLight incident =
+        incident_from_triangle(light, hit.barycentrics, glm::vec3(1.0f), point.position);
     const float geometry = incident.value.x;
     if (!(geometry > 0.0f)) return 0.0f;
     const float pdf_area =
-        world_.lights.pmf[index] * (1.0f - scene_.environment_probability()) / triangle_area(light);
+        light_probability(point, index) * (1.0f - scene_.environment_probability()) / triangle_area(light);
     return pdf_area / geometry;
 }
 

@@ -36,12 +36,13 @@ class PathIntegrator {
     Vertex make_vertex(const Hit& hit, const glm::vec3& direction);
     glm::vec3 gather_path(Vertex vertex);
 
-    SceneAccess::LightCandidate draw_light(std::uint32_t dimension);
+    SceneAccess::LightCandidate draw_light(const ShadingPoint& point, std::uint32_t dimension);
+    float light_probability(const ShadingPoint& point, std::uint32_t light);
     glm::vec3 sample_direct_light(const Vertex& vertex, std::uint32_t dimension);
     BrdfSample sample_direction(const Vertex& vertex, const glm::vec3& u) const;
     glm::vec3 weigh_sky(const glm::vec3& direction, float pdf_brdf);
     glm::vec3 weigh_emission(const Vertex& from, const Vertex& to, const Hit& hit, float pdf_brdf);
-    float light_pdf_solid_angle(const glm::vec3& point, const Hit& hit);
+    float light_pdf_solid_angle(const ShadingPoint& point, const Hit& hit);
 
     float weigh_light_sample(float pdf_light, float pdf_brdf) const;
     float weigh_brdf_sample(float pdf_brdf, float pdf_light) const;

@@ -74,6 +74,9 @@ std::uint64_t estimate_progress(const ReferenceSettings& settings, std::uint64_t
 ReferenceResult render_reference(const World& world, const RayTracer& tracer,
                                  const ReferenceSettings& settings) {
     check_settings(settings);
+    if (settings.light_tree && world.light_tree.lights_revision != world.lights.revision) {
+        throw Error("reference: the world's light tree is not up to date");
+    }
     const auto start = std::chrono::steady_clock::now();
     Film film(settings.width, settings.height);
     Progress progress("reference", 1000);

@@ -6,7 +6,9 @@
 
 #include "core/error.h"
 #include "core/statistics.h"
+#include "support/light_scenes.h"
 #include "support/reference_run.h"
+#include "world/light_tree.h"
 
 namespace tarn {
 namespace {
@@ -97,6 +99,29 @@ TEST(ReferenceStrategies, a_glowing_veil_lights_as_much_as_it_covers_for_every_s
     }
     const ReferenceResult veil = render_glowing_veil(AlphaMode::BLEND, 0.4f, LightStrategy::MIS, 6);
     EXPECT_FALSE(compare_images(veil, whole).passes);
+}
+
+// A room with many lamps of all kinds: both ways to draw a light have the same mean, the tree's with less
+// noise.
+TEST(ReferenceStrategies, lights_drawn_by_the_tree_light_as_much_as_by_power) {
+    test::LightScene lights(5);
+    lights.add_lights(200, true);
+    lights.toy().add_quad(lights.toy().add_material(lambert_material(glm::vec3(0.5f))), {-6, -2, -6},
+                          {0, 0, 12}, {12, 0, 0});
+    World world = build_world(lights.scene());
+    update_light_tree(world);
+    ReferenceSettings s = small_settings(world, {0, 2, 6}, {0, -1, 0}, 60.0);
+    s.spp = 2048;
+    s.direct_only = true;
+    const ReferenceResult by_power = run_reference(world, s);
+    s.light_tree = true;
+    s.seed = 1;
+    const ReferenceResult by_tree = run_reference(world, s);
+    const TileTest test = compare_images(by_tree, by_power);
+    EXPECT_TRUE(test.passes) << describe(test);
+    EXPECT_LT(by_tree.relative_error, by_power.relative_error);
+    s.planted_bug = PlantedBug::DROP_LIGHT_PDF;
+    EXPECT_FALSE(compare_images(run_reference(world, s), by_power).passes);
 }
 
 TEST(ReferenceStrategies, one_seed_gives_the_same_bits_for_any_number_of_threads) {

@@ -70,6 +70,7 @@ TEST(ReferenceCache, EveryChangeIsAnotherKey) {
         [](ReferenceSettings& s) { s.direct_only = false; },
         [](ReferenceSettings& s) { s.relative_error = 0.1; },
         [](ReferenceSettings& s) { s.box_pixel_filter = true; },
+        [](ReferenceSettings& s) { s.light_tree = true; },
         [](ReferenceSettings& s) { s.strategy = LightStrategy::BRDF_ONLY; },
         [](ReferenceSettings& s) { s.camera.position.x = std::nextafter(s.camera.position.x, 10.0f); },
         [](ReferenceSettings& s) { s.camera.forward.z += 1e-6f; },

@@ -110,6 +110,7 @@ std::string describe_reference_key(const World& world, const ReferenceSettings& 
                                   {"seed", settings.seed},
                                   {"box_pixel_filter", settings.box_pixel_filter},
                                   {"strategy", int(settings.strategy)},
+                                  {"light_tree", settings.light_tree},
                                   {"planted_bug", int(settings.planted_bug)}};
     key["camera"] = {describe(camera.position), describe(camera.right), describe(camera.up),
                      describe(camera.forward), camera.orthographic};

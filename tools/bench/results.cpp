@@ -265,6 +265,7 @@ Json describe_truth(const Truth& truth, const std::filesystem::path& picture_fol
     return {{"spp", truth.spp},
             {"relative_error", truth.relative_error},
             {"mean_variance", std::exp2(2.0 * double(truth.exposure_ev)) * truth.mean_variance},
+            {"noise_rel_mse", truth.noise_rel_mse},
             {"exposure_ev", truth.exposure_ev},
             {"left_out_pixels", truth.left_out},
             {"pictures", {{"display", stem + ".png"}, {"radiance", stem + ".exr"}}}};

@@ -120,6 +120,18 @@ std::map<std::string, std::uint64_t> count_since(const std::map<std::string, std
     return now;
 }
 
+// Mean of variance / (a^2 + 0.01), as relMSE weighs an error.
+double relative_noise(const Truth& truth) {
+    const double scale = linear_scale(truth);
+    RunningMoments noise;
+    for (std::size_t i = 0; i < truth.variance.values.size(); ++i) {
+        const double value = scale * truth.radiance.values[i];
+        const double share = scale * scale * truth.variance.values[i] / (value * value + REL_MSE_EPSILON);
+        if (std::isfinite(share)) noise.add(share);
+    }
+    return noise.mean();
+}
+
 }  // namespace
 
 double mean_finite_value(const Image& image) {
@@ -147,6 +159,7 @@ Truth make_truth(const ReferenceResult& reference, std::span<const std::uint32_t
         }
     }
     truth.mean_variance = mean_finite_value(truth.variance);
+    truth.noise_rel_mse = relative_noise(truth);
     return truth;
 }
 

@@ -50,6 +50,7 @@ struct Truth {
     std::size_t left_out = 0;    // pixels
     Image variance;              // of the reference's own mean
     double mean_variance = 0.0;  // the same, averaged over channels and pixels
+    double noise_rel_mse = 0.0;  // what it adds to the relMSE of a picture
     float exposure_ev = 0.0f;
     std::uint64_t spp = 0;
     double relative_error = 0.0;  // as ReferenceResult::relative_error

@@ -104,7 +104,8 @@ Json bench_scene(const BenchCommand& command, const BenchPlan& plan, const std::
     machine = session.describe_machine();
     World& world = session.loaded().world;
     const CameraRecord camera = choose_camera(options.scene, session.loaded().scene, world);
-    const ReferenceSettings reference = direct_truth_settings(options, camera, command.reference_spp);
+    const ReferenceSettings reference =
+        direct_truth_settings(options.scene.width, options.scene.height, camera, command.reference_spp);
 
     const std::string name = std::filesystem::path(scene).stem().string();
     const std::filesystem::path out = command.out;
@@ -134,10 +135,13 @@ Json bench_scene(const BenchCommand& command, const BenchPlan& plan, const std::
 }
 
 void print_scene(const Json& scene) {
-    fmt::print("\n{}: against {} samples a pixel, {} pixels on silhouettes left out; errors at {:+.2f} EV\n",
-               scene["name"].get<std::string>(), scene["reference"]["spp"].get<std::uint64_t>(),
-               scene["reference"]["left_out_pixels"].get<std::uint64_t>(),
-               scene["reference"]["exposure_ev"].get<double>());
+    fmt::print(
+        "\n{}: against {} samples a pixel (relMSE of its own: {:.2g}), {} pixels on silhouettes left out; "
+        "errors at {:+.2f} EV\n",
+        scene["name"].get<std::string>(), scene["reference"]["spp"].get<std::uint64_t>(),
+        scene["reference"]["noise_rel_mse"].get<double>(),
+        scene["reference"]["left_out_pixels"].get<std::uint64_t>(),
+        scene["reference"]["exposure_ev"].get<double>());
     fmt::print("  {:<28} {:>8} {:>7} {:>18} {:>9} {:>15} {:>22}\n", "method", "ms", "frames", "relMSE",
                "FLIP", "energy", "relative bias^2 (95 %)");
     for (const Json& method : scene["methods"]) {

@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "silhouettes.h"
+#include "world/light_tree.h"
 
 namespace tarn {
 namespace {
@@ -13,22 +14,27 @@ constexpr std::uint32_t REFERENCE_SEED = 0x5eed0001u;
 
 }  // namespace
 
-ReferenceSettings direct_truth_settings(const RenderOptions& options, const CameraRecord& camera, int spp) {
+ReferenceSettings direct_truth_settings(int width_px, int height_px, const CameraRecord& camera, int spp) {
     ReferenceSettings settings;
-    settings.width = options.scene.width;
-    settings.height = options.scene.height;
+    settings.width = width_px;
+    settings.height = height_px;
     settings.camera = camera;
     settings.direct_only = true;
+    settings.light_tree = true;
     settings.spp = std::uint64_t(spp);
     settings.seed = REFERENCE_SEED;
     settings.cancel = &interrupt_flag();
     return settings;
 }
 
+ReferenceResult find_direct_reference(RenderSession& session, const ReferenceSettings& settings) {
+    update_light_tree(session.loaded().world);
+    return ReferenceCache(default_cache_folder()).get(session.loaded().world, session.tracer(), settings);
+}
+
 Truth find_direct_truth(RenderSession& session, const RenderOptions& options,
                         const ReferenceSettings& settings) {
-    const ReferenceResult reference =
-        ReferenceCache(default_cache_folder()).get(session.loaded().world, session.tracer(), settings);
+    const ReferenceResult reference = find_direct_reference(session, settings);
     if (reference.cancelled) throw Error("interrupted while the reference was rendered");
     FrameInput input;
     input.camera = settings.camera;

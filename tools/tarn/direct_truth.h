@@ -7,10 +7,14 @@
 
 namespace tarn {
 
-// Direct light alone, through pixel centres, with random numbers that no method uses; stops at Ctrl-C.
-ReferenceSettings direct_truth_settings(const RenderOptions& options, const CameraRecord& camera, int spp);
+// Direct light alone, through pixel centres, with random numbers that no method uses, lights drawn by the
+// light tree; stops at Ctrl-C.
+ReferenceSettings direct_truth_settings(int width_px, int height_px, const CameraRecord& camera, int spp);
 
-// Renders it or finds it in the cache of the user. Throws Error when interrupted.
+// Renders it or finds it in the cache of the user. Brings the world's light tree up to date.
+ReferenceResult find_direct_reference(RenderSession& session, const ReferenceSettings& settings);
+
+// The same as what methods are held against. Throws Error when interrupted.
 Truth find_direct_truth(RenderSession& session, const RenderOptions& options,
                         const ReferenceSettings& settings);
 

@@ -8,14 +8,13 @@
 #include "core/display.h"
 #include "core/interrupt.h"
 #include "core/log.h"
+#include "direct_truth.h"
 #include "image_io/image_io.h"
 #include "silhouettes.h"
 
 namespace tarn {
 namespace {
 
-// Far from the seeds of the methods.
-constexpr std::uint32_t REFERENCE_SEED = 0x5eed0002u;
 // A flight that goes on repeats so many frames first, to fill the histories as they were.
 constexpr int RESUMED_FRAMES = 20;
 
@@ -181,16 +180,9 @@ class Flyer {
 
     // Nothing where the user interrupts.
     std::optional<Truth> find_truth(int frame) {
-        ReferenceSettings settings;
-        settings.width = renderers_.front()->width_px();
-        settings.height = renderers_.front()->height_px();
-        settings.camera = camera_;
-        settings.direct_only = true;
-        settings.spp = std::uint64_t(plan_.reference_spp);
-        settings.seed = REFERENCE_SEED;
-        settings.cancel = &interrupt_flag();
-        const ReferenceResult reference =
-            ReferenceCache(default_cache_folder()).get(session_.loaded().world, session_.tracer(), settings);
+        const ReferenceResult reference = find_direct_reference(
+            session_, direct_truth_settings(renderers_.front()->width_px(), renderers_.front()->height_px(),
+                                            camera_, plan_.reference_spp));
         if (reference.cancelled) return std::nullopt;
         write_png(out_ / flight_reference_name(frame),
                   display_from_radiance(reference.radiance, *flight_.exposure_ev));

@@ -13,6 +13,7 @@
 #include "image_io/image_io.h"
 #include "output/output_files.h"
 #include "scene_options.h"
+#include "world/light_tree.h"
 
 namespace tarn {
 namespace {
@@ -61,6 +62,7 @@ void write_report(const ReferenceOptions& options, const ReferenceResult& result
                         {"seed", s.seed},
                         {"bounces", s.direct_only ? 1 : s.bounces},
                         {"direct_only", s.direct_only},
+                        {"light_tree", s.light_tree},
                         {"pixel", options.pixel},
                         {"threads", options.scene.threads}};
     write_json(options.json, json);
@@ -70,7 +72,7 @@ void run_reference_command(ReferenceOptions& options) {
     check_output_folder(options.out);
     check_output_folder(options.json);
     const WorkerLimit limit(options.scene.threads);
-    const LoadedScene loaded = load_scene(options.scene);
+    LoadedScene loaded = load_scene(options.scene);
     const auto tracer = create_embree_tracer(loaded.world);
     ReferenceSettings& settings = options.settings;
     settings.width = options.scene.width;
@@ -79,6 +81,7 @@ void run_reference_command(ReferenceOptions& options) {
     settings.camera = choose_camera(options.scene, loaded.scene, loaded.world);
     settings.box_pixel_filter = options.pixel == "box";
     settings.cancel = &interrupt_flag();
+    if (settings.light_tree) update_light_tree(loaded.world);
     const ReferenceResult result = render_reference(loaded.world, *tracer, settings);
     write_picture(options.out, result);
     if (!options.json.empty()) write_report(options, result);
@@ -123,6 +126,9 @@ void add_reference_command(CLI::App& app) {
         ->capture_default_str();
     command->add_flag("--direct-only", options->settings.direct_only,
                       "Emission and direct light alone: what the renderer's direct passes compute");
+    command->add_flag(
+        "--light-tree", options->settings.light_tree,
+        "Draw lights by the light tree instead of by power: far less noise where they are many");
     command
         ->add_option("--pixel", options->pixel,
                      "Where in a pixel: its centre as the rasterizer, or all of it (box)")

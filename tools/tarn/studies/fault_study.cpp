@@ -188,8 +188,10 @@ void run(const FaultStudy& study) {
     RenderSession session(study.options);
     const CameraRecord camera =
         choose_camera(study.options.scene, session.loaded().scene, session.loaded().world);
-    const Truth truth = find_direct_truth(session, study.options,
-                                          direct_truth_settings(study.options, camera, study.reference_spp));
+    const Truth truth =
+        find_direct_truth(session, study.options,
+                          direct_truth_settings(study.options.scene.width, study.options.scene.height, camera,
+                                                study.reference_spp));
     RendererSource source(session.loaded().world, session.tracer(), study.options.scene.width,
                           study.options.scene.height, 2);
     source.set_camera(camera);

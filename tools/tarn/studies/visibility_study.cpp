@@ -226,8 +226,10 @@ void run(const VisibilityStudy& study) {
     RenderSession session(study.options);
     const CameraRecord camera =
         choose_camera(study.options.scene, session.loaded().scene, session.loaded().world);
-    const Truth truth = find_direct_truth(session, study.options,
-                                          direct_truth_settings(study.options, camera, study.reference_spp));
+    const Truth truth =
+        find_direct_truth(session, study.options,
+                          direct_truth_settings(study.options.scene.width, study.options.scene.height, camera,
+                                                study.reference_spp));
     const std::vector<ModeImages> modes = measure_modes(study, session, camera);
     fmt::print("{}: {} seeds of {} frames after {}, reference of {} samples a pixel\n",
                study.options.scene.scene.stem().string(), study.seeds, study.frames, study.warm_up,
