@@ -93,9 +93,14 @@ void DirectLight::record_lane(const DirectFrame& direct, std::size_t lane, const
         initial_visibility_.record(direct, fresh, seen);
     }
     const RowBuffer& chosen = settings.reuses() ? reuse(direct, lanes_[lane], fresh) : fresh.reservoirs;
+    const bool first = direct.sample == 0 && lane == 0;
+    if (settings.shades_all()) {
+        shade_.record(direct, *light_, first);
+        return;
+    }
     const RowBuffer* seen =
         settings.traces_chosen_samples() ? &trace(direct, "visibility", fresh.rays) : nullptr;
-    shade_.record(direct, chosen, seen, direct.sample == 0 && lane == 0);
+    shade_.record(direct, chosen, seen, first);
 }
 
 // The steps of reuse in turn; the last one writes what the next frame will find, and the rays that test it.
@@ -115,7 +120,9 @@ const RowBuffer& DirectLight::reuse(const DirectFrame& direct, Lane& lane, const
     for (int i = 0; i < spatial_steps; ++i) {
         const bool last = i + 1 == spatial_steps;
         const RowBuffer& out = last ? result : scratch_[std::size_t(in == &scratch_[0] ? 1 : 0)];
-        spatial_.record(direct, {*in, out, last ? last_rays : nullptr}, i);
+        const bool lights = last && settings.shades_all();
+        if (lights && !light_) light_.emplace("direct/light", width_px_, height_px_, GL_RGBA32F);
+        spatial_.record(direct, {*in, out, last ? last_rays : nullptr, lights ? &*light_ : nullptr}, i);
         in = &out;
     }
     return result;

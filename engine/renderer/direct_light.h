@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "passes/direct/boiling_filter.h"
@@ -54,6 +55,7 @@ class DirectLight {
     int height_px_;
     std::vector<Lane> lanes_;
     std::array<RowBuffer, 2> scratch_;  // between the steps of reuse
+    std::optional<Texture2D> light_;    // of all samples of the last step, once that is asked for
     DirectCandidatesPass candidates_;
     InitialVisibilityPass initial_visibility_;
     std::unique_ptr<LightTilesPass> light_tiles_;  // these two once they are asked for

@@ -132,6 +132,11 @@ const std::vector<Setting>& setting_table() {
                 "averaged "
                 "over all samples of each step",
                 &S::visibility, {"trace", "reuse", "averaged"})),
+        where(
+            &S::can_shade_all,
+            choose("shade",
+                   "restir: what lights a pixel: its chosen sample, or all of the last step by their weights",
+                   &S::shade, {"chosen", "all"})),
         where(&S::reuses, toggle("discard-occluded",
                                  "restir: drop fresh samples that are occluded before anyone reuses them",
                                  &S::discard_occluded)),
@@ -172,6 +177,7 @@ RenderSettings fast_settings() {
     s.neighbours = 1;
     s.mis = Mis::BALANCE;
     s.visibility = SampleVisibility::AVERAGED;
+    s.shade = SampleShading::ALL;
     s.age_cap = 30;
     return s;
 }
@@ -191,6 +197,7 @@ RenderSettings balanced_settings() {
 RenderSettings unbiased_settings() {
     RenderSettings s = balanced_settings();
     s.mis_visibility = true;
+    s.shade = SampleShading::ALL;
     s.age_cap = 0;
     return s;
 }

@@ -68,8 +68,8 @@ std::vector<Defines> list_reuse_modes() {
         for (const char* mis_visibility : {"TARN_MIS_VISIBILITY=0", "TARN_MIS_VISIBILITY=1"}) {
             for (const char* visibility :
                  {"TARN_SAMPLE_VISIBILITY=0", "TARN_SAMPLE_VISIBILITY=1", "TARN_SAMPLE_VISIBILITY=2"}) {
-                for (const Defines& run :
-                     {Defines{}, Defines{"TARN_LAST_STEP"}, Defines{"TARN_WRITE_RAYS"}}) {
+                for (const Defines& run : {Defines{}, Defines{"TARN_LAST_STEP"}, Defines{"TARN_SHADE_ALL"},
+                                           Defines{"TARN_WRITE_RAYS"}}) {
                     result.push_back(Defines{mis, mis_visibility, visibility} + run);
                 }
             }
@@ -86,7 +86,11 @@ std::vector<Defines> list_own_variants(const std::string& pass) {
                 {"TARN_SELECT_TILES", "TARN_BRDF_CANDIDATE"},
                 {"TARN_SELECT_TREE"}};
     if (pass == "direct/shade")
-        return {{}, {"TARN_RESERVOIR_VISIBILITY", "TARN_ONE_CHANNEL", "TARN_ADD"}, {"TARN_SHOW_VISIBILITY"}};
+        return {{},
+                {"TARN_RESERVOIR_VISIBILITY", "TARN_ONE_CHANNEL", "TARN_ADD"},
+                {"TARN_SHOW_VISIBILITY"},
+                {"TARN_SHOW_UNSHADOWED"},
+                {"TARN_SHADED"}};
     if (is_reuse(pass)) return {{"TARN_MIS=2", "TARN_MIS_VISIBILITY=1", "TARN_SAMPLE_VISIBILITY=0"}};
     if (pass == "gbuffer/raster") return {{}, {"TARN_COVERAGE"}};
     return {{}};

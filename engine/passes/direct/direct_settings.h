@@ -22,6 +22,9 @@ enum class Mis { SHARE, COUNT, BALANCE, PAIRWISE };
 // How the visibility of the sample that lights a pixel is known; see lib/reuse.glsl.
 enum class SampleVisibility { TRACE, REUSE, AVERAGED };
 
+// What lights a pixel: the sample that it chose, or all samples of the last step, each by its weight.
+enum class SampleShading { CHOSEN, ALL };
+
 // What the picture shows instead of light: the visibility of the chosen samples, or their light without it.
 enum class DebugView { NONE, VISIBILITY, UNSHADOWED };
 
@@ -38,6 +41,7 @@ struct DirectSettings {
     Mis mis = Mis::PAIRWISE;
     bool mis_visibility = false;
     SampleVisibility visibility = SampleVisibility::TRACE;
+    SampleShading shade = SampleShading::CHOSEN;
     bool discard_occluded = true;
     bool per_channel = false;
     double confidence_cap = 20.0;
@@ -74,6 +78,15 @@ struct DirectSettings {
     // Whether fresh samples are tested before anyone reuses them.
     bool tests_fresh_samples() const {
         return reuses() && (discard_occluded || traces_in_mis() || visibility != SampleVisibility::TRACE);
+    }
+    // Whether all samples of the last step may light the pixel: their weights sum to one and each is known to
+    // be seen or not. No more rays than for the chosen one, and less noise, that of colour above all.
+    bool can_shade_all() const {
+        return reuses_space() && (mis == Mis::BALANCE || mis == Mis::PAIRWISE) &&
+               (traces_in_mis() || visibility != SampleVisibility::TRACE);
+    }
+    bool shades_all() const {
+        return shade == SampleShading::ALL && can_shade_all() && debug_view == DebugView::NONE;
     }
     // Whether the chosen sample of each pixel is tested after all reuse.
     bool traces_chosen_samples() const {

@@ -73,13 +73,16 @@ void ReuseStep::write_rays(const DirectFrame& direct, const std::string& path, c
 
 void ReuseStep::merge(const DirectFrame& direct, const std::string& path, const Band& band, const Io& io,
                       const Bind& bind) {
-    const Program& program = programs_.compute(path, defines_for(direct, io.shadow_rays != nullptr));
+    std::vector<std::string> defines = defines_for(direct, io.shadow_rays != nullptr);
+    if (io.light != nullptr) defines.emplace_back("TARN_SHADE_ALL");
+    const Program& program = programs_.compute(path, defines);
     set_band(direct, program, band);
     PassRecorder pass = direct.frame.pass(path);
     bind(pass, program);
     read_gbuffer(pass, direct.gbuffer).read(UNIT_PASS_A, io.in).write(0, io.out);
     if (band.rays_per_pixel > 0) pass.read(UNIT_PASS_B, visibility_->answers());
     if (io.shadow_rays != nullptr) pass.write(2, *io.shadow_rays);
+    if (io.light != nullptr) pass.write_image(0, *io.light);
     pass.count(BLOCK_COUNTERS, direct.counters).dispatch(program, width_px_, band.end - band.begin);
 }
 

@@ -19,6 +19,7 @@ class ReuseStep {
         const RowBuffer& in;
         const RowBuffer& out;
         const Buffer* shadow_rays;  // set for the last step: the rays that test its samples, RAY_ROWS a pixel
+        const Texture2D* light = nullptr;  // set for the last step where all its samples light the pixel
     };
 
     // Runs passes/PATH.comp for each band; `bind` sets uniforms and reads what only this step reads.

@@ -1,5 +1,6 @@
 // Lights each pixel with its reservoir's sample: emission + BRDF x Le x G x visibility x contribution weight.
 //
+// TARN_SHADED: with the light that the last step of reuse has summed over all its samples instead.
 // TARN_RESERVOIR_VISIBILITY: visibility is what the reservoir knows; else a ray was traced for it.
 // TARN_SHOW_VISIBILITY: the visibility term itself instead of light; TARN_SHOW_UNSHADOWED: light without it. Figures 1c,
 // 1d and 1e of Tokuyoshi's supplement.
@@ -12,12 +13,17 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
+#ifdef TARN_SHADED
+layout(binding = UNIT_PASS_A) uniform sampler2D summed_light;
+#else
 layout(binding = UNIT_PASS_A) uniform usamplerBuffer reservoirs;
+#endif
 layout(binding = UNIT_PASS_B) uniform samplerBuffer visibility;
 layout(binding = 0, rgba32f) uniform image2D radiance_image;
 
 uniform float share;  // of this sample in the picture
 
+#ifndef TARN_SHADED
 float load_visibility(ivec2 pixel, Reservoir reservoir) {
 #ifdef TARN_SHOW_UNSHADOWED
     return 1.0f;
@@ -29,7 +35,7 @@ float load_visibility(ivec2 pixel, Reservoir reservoir) {
 #endif
 }
 
-vec3 direct_light(ivec2 pixel, Receiver receiver) {
+vec3 chosen_light(ivec2 pixel, Receiver receiver) {
     int row = int(pixel_index(pixel) * RESERVOIR_ROWS);
     Reservoir reservoir = unpack_reservoir(texelFetch(reservoirs, row), texelFetch(reservoirs, row + 1));
     float visible = load_visibility(pixel, reservoir);
@@ -38,10 +44,20 @@ vec3 direct_light(ivec2 pixel, Receiver receiver) {
 #ifdef TARN_SHOW_VISIBILITY
     reflected = vec3(reservoir.contribution_weight > 0.0f ? visible : 0.0f);
 #endif
-#ifdef TARN_ONE_CHANNEL
-    reflected *= target_weights;
+    return reflected;
+}
 #endif
-    return reflected * share;
+
+vec3 direct_light(ivec2 pixel, Receiver receiver) {
+#ifdef TARN_SHADED
+    vec3 light = texelFetch(summed_light, pixel, 0).xyz;
+#else
+    vec3 light = chosen_light(pixel, receiver);
+#endif
+#ifdef TARN_ONE_CHANNEL
+    light *= target_weights;
+#endif
+    return light * share;
 }
 
 void main() {

@@ -16,6 +16,11 @@ layout(local_size_x = 8, local_size_y = 8) in;
 uniform uint neighbour_count;  // 1 .. 9
 uniform float radius_px;
 uniform uint iteration;
+#ifdef TARN_SHADE_ALL
+// Where all samples of this step light the pixel: the sum of m x BRDF x Le x G x visibility x W over them.
+layout(binding = 0, rgba32f) uniform writeonly image2D light_image;
+#endif
+
 uniform uint mirror;  // 1: neighbours outside of the picture are mirrored into it
 
 // The pixel and who joins it.
@@ -53,10 +58,9 @@ bool can_join(Receiver here, ivec2 pixel, ivec2 neighbour) {
     if (any(lessThan(neighbour, ivec2(0))) || any(greaterThanEqual(neighbour, ivec2(frame_size.xy)))) return false;
     if (neighbour == pixel) return false;
     vec4 position = load_layer(neighbour, LAYER_POSITION);
-    vec3 normal = decode_octahedral(load_layer(neighbour, LAYER_NORMALS).zw);
-    float alpha = load_layer(neighbour, LAYER_DIFFUSE).w;
-    return position.w >= 0.0f && is_similar(position.xyz, normal, alpha, here.point.position, here.point.shading_normal,
-                                            here.point.material.alpha, view_depth(frame_camera(), here.point.position));
+    Look look = look_of_layers(position, load_layer(neighbour, LAYER_NORMALS), load_layer(neighbour, LAYER_DIFFUSE));
+    return position.w >= 0.0f &&
+           is_similar(look, look_of(here.point), view_depth(frame_camera(), here.point.position));
 }
 
 Gathering gather(ivec2 pixel, Receiver here) {
@@ -172,8 +176,16 @@ float normalization(Gathering g, Merge m) {
     return z;
 }
 
-Merge merge_all(Gathering g) {
+// What a sample sends to the viewer, `share` being its m x W. Its colour is its own: averaging visibility under one
+// chosen colour leaks, this does not.
+vec3 shade_sample(Gathering g, Reservoir r, float share) {
+    vec3 reflected = reflect_at(g.here, load_incident_light(r.chosen, g.here.point.position));
+    return reflected * share * (MIS_VISIBILITY ? 1.0f : r.visibility);
+}
+
+Merge merge_all(Gathering g, out vec3 light) {
     Merge m = empty_merge();
+    light = vec3(0.0f);
     for (uint t = 0u; t <= neighbour_count; ++t) {
         Reservoir r = technique_reservoir(g, t);
         if (r.contribution_weight == 0.0f) continue;
@@ -188,6 +200,9 @@ Merge merge_all(Gathering g) {
         if (target > 0.0f) weight *= r.target / target;
 #endif
         offer_merged(m, r, target, weight, neighbour_random(g.pixel, t).z);
+#ifdef TARN_SHADE_ALL
+        if (weight > 0.0f && is_finite(weight)) light += shade_sample(g, r, weight / target);
+#endif
     }
     return m;
 }
@@ -235,7 +250,8 @@ void write_ray(Gathering g, uint looker, LightSample drawn, uint slot) {
 void write_rays(Gathering g) {
     store_no_rays(g.pixel);
     if (MIS == MIS_COUNT && MIS_VISIBILITY) {
-        LightSample chosen = merge_all(g).live.chosen;
+        vec3 light;
+        LightSample chosen = merge_all(g, light).live.chosen;
         for (uint t = 0u; t <= neighbour_count; ++t) {
             if (has_joined(g, t)) write_ray(g, t, chosen, t);
         }
@@ -269,13 +285,17 @@ void main() {
     }
 #else
     Reservoir result = empty_reservoir();
+    vec3 light = vec3(0.0f);
     if (lit) {
         Gathering g = gather(pixel, here);
 #ifdef TARN_CHECK_MIS
         check_weights(g);
 #endif
-        result = finish(g, merge_all(g));
+        result = finish(g, merge_all(g, light));
     }
+#ifdef TARN_SHADE_ALL
+    imageStore(light_image, pixel, vec4(light, 1.0f));
+#endif
     store_reservoir(pixel, here, result);
 #endif
 }

@@ -58,9 +58,10 @@ bool find_past_pixel(ivec2 pixel, Receiver here, out ivec2 found) {
     }
     vec4 position = texelFetch(previous_layers, ivec3(found, LAYER_POSITION), 0);
     vec4 normals = texelFetch(previous_layers, ivec3(found, LAYER_NORMALS), 0);
-    float alpha = texelFetch(previous_layers, ivec3(found, LAYER_DIFFUSE), 0).w;
-    return position.w >= 0.0f && is_similar(expected, here.point.shading_normal, here.point.material.alpha,
-                                            position.xyz, decode_octahedral(normals.zw), alpha,
+    vec4 diffuse = texelFetch(previous_layers, ivec3(found, LAYER_DIFFUSE), 0);
+    Look expected_look = look_of(here.point);
+    expected_look.position = expected;
+    return position.w >= 0.0f && is_similar(expected_look, look_of_layers(position, normals, diffuse),
                                             view_depth(previous_camera(), expected));
 }
 
