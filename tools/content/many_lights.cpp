@@ -219,4 +219,12 @@ void build_many_lights(GltfWriter& writer, const SceneOptions& options) {
     writer.add_camera("main", {0.0f, 5.5f, 17.5f}, {0.0f, 0.8f, 0.0f}, 55.0);
 }
 
+// One light of each hue: shadows of many colours, and few enough that means converge in seconds.
+void build_coloured_lights(GltfWriter& writer, const SceneOptions& options) {
+    SceneOptions few = options;
+    few.count = HUE_COUNT;
+    few.moving_percent = 0.0;
+    build_many_lights(writer, few);
+}
+
 }  // namespace tarn::content

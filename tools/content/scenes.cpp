@@ -19,6 +19,7 @@ constexpr Entry ENTRIES[] = {
     {"point_over_plane", build_point_over_plane},
     {"rectangle_over_plane", build_rectangle_over_plane},
     {"many_lights", build_many_lights},
+    {"coloured_lights", build_coloured_lights},
 };
 
 }  // namespace

@@ -29,5 +29,6 @@ void build_furnace_ggx(GltfWriter& writer, const SceneOptions& options);
 void build_point_over_plane(GltfWriter& writer, const SceneOptions& options);
 void build_rectangle_over_plane(GltfWriter& writer, const SceneOptions& options);
 void build_many_lights(GltfWriter& writer, const SceneOptions& options);
+void build_coloured_lights(GltfWriter& writer, const SceneOptions& options);
 
 }  // namespace tarn::content

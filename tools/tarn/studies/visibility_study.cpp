@@ -19,10 +19,10 @@ using Json = nlohmann::ordered_json;
 
 struct VisibilityStudy {
     RenderOptions options;
-    int seeds = 8;
+    int seeds = 6;
     int warm_up = 24;
-    int frames = 64;
-    int reference_spp = 1024;
+    int frames = 256;
+    int reference_spp = 8192;
     std::string out = "out/study_visibility";
 };
 
@@ -32,6 +32,7 @@ struct Mode {
     SampleVisibility visibility;
     bool discard_occluded;  // before anyone reuses them: what darkens
     bool per_channel;
+    SampleShading shade = SampleShading::CHOSEN;
 };
 
 constexpr Mode MODES[] = {
@@ -41,6 +42,7 @@ constexpr Mode MODES[] = {
     {"reuse, all kept", SampleVisibility::REUSE, false, false},
     {"averaged, all kept", SampleVisibility::AVERAGED, false, false},
     {"averaged, all kept, per channel", SampleVisibility::AVERAGED, false, true},
+    {"all shaded, all kept", SampleVisibility::AVERAGED, false, false, SampleShading::ALL},
 };
 constexpr std::size_t REUSE = 0, AVERAGED = 1;
 
@@ -56,6 +58,7 @@ RenderSettings settings_of(const VisibilityStudy& study, const Mode& mode) {
     settings.visibility = mode.visibility;
     settings.discard_occluded = mode.discard_occluded;
     settings.per_channel = mode.per_channel;
+    settings.shade = mode.shade;
     return settings;
 }
 
@@ -253,9 +256,9 @@ void add_visibility_study(CLI::App& app) {
     auto study = std::make_shared<VisibilityStudy>();
     CLI::App* sub = app.add_subcommand(
         "visibility", "Visibility reused or averaged: noise of the term, darkening, colour leak");
-    study->options.scene.scene = "lantern_court";
-    study->options.scene.width = 320;
-    study->options.scene.height = 180;
+    study->options.scene.scene = "coloured_lights";
+    study->options.scene.width = 128;
+    study->options.scene.height = 72;
     study->options.settings = find_preset("fast").settings;
     add_render_options(*sub, study->options);
     sub->get_option("SCENE")->required(false);
