@@ -103,29 +103,31 @@ void DirectLight::record_lane(const DirectFrame& direct, std::size_t lane, const
     shade_.record(direct, chosen, seen, first);
 }
 
-// The steps of reuse in turn; the last one writes what the next frame will find, and the rays that test it.
+// The steps of reuse in turn. The last one writes the rays that test its samples; the last that feeds the
+// history writes what the next frame will find.
 const RowBuffer& DirectLight::reuse(const DirectFrame& direct, Lane& lane, const Candidates& fresh) {
     const DirectSettings& settings = direct.settings;
-    const RowBuffer& result = lane.reservoirs.current();
+    const RowBuffer& kept = lane.reservoirs.current();
     const int spatial_steps = settings.reuses_space() ? settings.spatial_iterations : 0;
     const Buffer* last_rays = settings.traces_chosen_samples() ? &fresh.rays : nullptr;
     const RowBuffer* in = &fresh.reservoirs;
     if (settings.reuses_time()) {
         const bool last = spatial_steps == 0;
-        const RowBuffer& out = last ? result : scratch_[0];
+        const RowBuffer& out = last || !settings.feedback ? kept : scratch_[0];
         temporal_.record(direct, {*in, out, last ? last_rays : nullptr}, lane.reservoirs.previous());
         if (settings.boiling_filter > 0.0) boiling_filter_.record(direct, out);
         in = &out;
     }
     for (int i = 0; i < spatial_steps; ++i) {
         const bool last = i + 1 == spatial_steps;
-        const RowBuffer& out = last ? result : scratch_[std::size_t(in == &scratch_[0] ? 1 : 0)];
+        const bool is_kept = last && (settings.feedback || !settings.reuses_time());
+        const RowBuffer& out = is_kept ? kept : scratch_[std::size_t(in == &scratch_[0] ? 1 : 0)];
         const bool lights = last && settings.shades_all();
         if (lights && !light_) light_.emplace("direct/light", width_px_, height_px_, GL_RGBA32F);
         spatial_.record(direct, {*in, out, last ? last_rays : nullptr, lights ? &*light_ : nullptr}, i);
         in = &out;
     }
-    return result;
+    return *in;
 }
 
 const RowBuffer& DirectLight::trace(const DirectFrame& direct, const std::string& name, const Buffer& rays) {

@@ -115,6 +115,12 @@ const std::vector<Setting>& setting_table() {
         where(&S::reuses_space, number("neighbours", "", "restir: neighbours a step", &S::neighbours, 1, 9)),
         where(&S::reuses_space,
               number("radius", "px", "restir: distance of neighbours at most", &S::radius_px, 1, 100)),
+        where(
+            &S::reuses_both,
+            toggle("feedback",
+                   "restir: the next frame finds what neighbours gave, instead of what time alone gave: more "
+                   "candidates behind a sample, but neighbours come to share it",
+                   &S::feedback)),
         where(&S::reuses, choose("mis",
                                  "restir: weights of reused samples: 1/M, 1/Z, generalized balance "
                                  "heuristic, pairwise defensive",
@@ -161,13 +167,18 @@ const std::vector<Setting>& setting_table() {
               toggle("mirror",
                      "restir: neighbours outside of the picture are mirrored into it instead of left out",
                      &S::mirror)),
-        choose("debug-view", "Show the visibility of the chosen samples, or their light without it",
-               &S::debug_view, {"none", "visibility", "unshadowed"}),
+        choose("debug-view",
+               "Show the visibility of the chosen samples, their light without it, or which they are, in "
+               "colours",
+               &S::debug_view, {"none", "visibility", "unshadowed", "samples"}),
     };
     return table;
 }
 
 namespace {
+
+// Near neighbours are of one mind about a sample; without feedback they do not come to share it.
+constexpr double PRESET_RADIUS_PX = 16.0;
 
 RenderSettings fast_settings() {
     RenderSettings s;
@@ -175,6 +186,8 @@ RenderSettings fast_settings() {
     s.light_selection = LightSelection::TILES;
     s.candidates = 8;
     s.neighbours = 1;
+    s.radius_px = PRESET_RADIUS_PX;
+    s.feedback = false;
     s.mis = Mis::BALANCE;
     s.visibility = SampleVisibility::AVERAGED;
     s.shade = SampleShading::ALL;
@@ -189,8 +202,18 @@ RenderSettings balanced_settings() {
     s.candidates = 16;
     s.brdf_candidate = true;
     s.neighbours = 3;
+    s.radius_px = PRESET_RADIUS_PX;
+    s.feedback = false;
     s.mis = Mis::PAIRWISE;
     s.age_cap = 30;
+    return s;
+}
+
+RenderSettings fine_settings() {
+    RenderSettings s = balanced_settings();
+    s.light_selection = LightSelection::TREE;
+    s.candidates = 4;
+    s.per_channel = true;
     return s;
 }
 
@@ -223,6 +246,10 @@ const std::vector<Preset>& preset_table() {
          "two shadow rays and one along the BRDF a pixel, the chosen sample traced: darkens near shadow "
          "edges",
          balanced_settings()},
+        {"fine",
+         "balanced, with lights drawn by the light tree and a sample for each colour: no colour noise, twice "
+         "the time",
+         fine_settings()},
         {"unbiased", "rays in all MIS weights: no bias where geometry stands still", unbiased_settings()},
         {"student", "32 random lights, 5 neighbours in 10 px, 1/M weights: the simplest form, for comparison",
          student_settings()},

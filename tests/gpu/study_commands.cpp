@@ -51,6 +51,21 @@ TEST_F(StudyCommand, TheBoilingFilterRemovesEnergyAndMirroringRemovesNone) {
     }
 }
 
+// Without a past there is no lag; with one, it is the noise that takes its time.
+TEST_F(StudyCommand, LagIsOfWhatHasAPast) {
+    const Json found =
+        study("lag", {CONTENT + "coloured_lights.glb", "--size", "48x27", "--seeds", "4", "--warm-up", "20",
+                      "--frames", "24", "--methods", "ris:samples=32,restir-balanced"});
+    for (const Json& step : found["steps"]) {
+        EXPECT_EQ(step["progress"].size(), 24u);
+        EXPECT_NEAR(step["progress"].back().get<double>(), 1.0, 0.2) << step["step"];
+        if (step["method"] == "ris:samples=32") EXPECT_EQ(step["frames_to_reach"], 1) << step["step"];
+        if (step["method"] == "restir-balanced" && step["step"] == "the camera cuts")
+            EXPECT_GT(step["noise"][0].get<double>(), 1.5 * step["noise"].back().get<double>());
+    }
+    EXPECT_EQ(found["steps"].size(), 6u);  // nothing there is animated
+}
+
 TEST_F(StudyCommand, CountsOfLightsAreRenderedSideBySide) {
     const Json found = study("lights", {"--counts", "10,100,1000", "--size", "48x27", "--frames", "3"});
     ASSERT_EQ(found["counts"].size(), 3u);

@@ -20,7 +20,8 @@ struct ToyFault {
 };
 
 // Radiance of a pixel: the truth plus normal noise of `deviation`; shading takes 2 ms + 0.05 ms a candidate,
-// the G-buffer 3 ms, both with 2 % of jitter, and all times the machine's slowness.
+// three passes before it 1 ms each, all with 2 % of jitter, and all times the machine's slowness and the
+// share of pixels.
 class ToySource : public FrameSource {
   public:
     static constexpr int WIDTH_PX = 24;
@@ -44,17 +45,20 @@ class ToySource : public FrameSource {
 
     RenderedFrame render(const FrameRequest& request) override {
         ++rendered_;
-        const auto& [method, settings, seed, frame, starts, lead] = request;
+        const auto& [method, settings, seed, frame, starts, lead, resolution] = request;
         const ToyFault& fault = faults_[method];
         RenderedFrame result;
         result.radiance =
             fault.dropped.contains(frame % (1u << 20)) ? before_ : make_picture(fault, seed, frame);
         before_ = result.radiance;
-        const double gbuffer_ms = slowness_ * jitter() * 3.0;
-        const double shade_ms =
-            slowness_ * jitter() * fault.shading_slowdown * (2.0 + 0.05 * settings.candidates);
-        result.timings.passes = {{"toy/gbuffer", gbuffer_ms}, {"toy/shade", shade_ms}};
-        result.timings.frame_ms = gbuffer_ms + shade_ms;
+        const double pixels = resolution * resolution;
+        const auto take_ms = [&](double ms) { return slowness_ * jitter() * ms * pixels; };
+        result.timings.passes = {
+            {"toy/raster", take_ms(1.0)},
+            {"toy/resolve", take_ms(1.0)},
+            {"toy/trace", take_ms(1.0)},
+            {"toy/shade", take_ms(fault.shading_slowdown * (2.0 + 0.05 * settings.candidates))}};
+        for (const PassTiming& pass : result.timings.passes) result.timings.frame_ms += pass.ms;
         result.rays = result.radiance.pixel_count();
         return result;
     }

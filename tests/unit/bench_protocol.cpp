@@ -94,6 +94,23 @@ TEST(BenchProtocol, BudgetsAreFilledByTheDialElseByFrames) {
     }
 }
 
+// 5.05 ms with one candidate: three quarters of the size take 2.84 ms, a half 1.26 ms.
+TEST(BenchProtocol, ABudgetTooSmallForOneFrameBuysFewerPixels) {
+    const TemporaryFolder folder;
+    ToySource source(std::vector<ToyFault>(2));
+    BenchPlan plan = toy_plan("uniform:samples=1,ris");
+    plan.budgets_ms = {0.1, 2.0, 2.8};
+    const Json results = run_toy_bench(plan, source, folder.path());
+    const auto resolution_of = [&](std::size_t method, std::size_t budget) {
+        return results["scenes"][0]["methods"][method]["cells"][2 + budget]["resolution"].get<double>();
+    };
+    EXPECT_EQ(resolution_of(1, 0), 0.25);  // the least there is
+    EXPECT_EQ(resolution_of(1, 1), 0.5);
+    EXPECT_EQ(resolution_of(1, 2), 0.75);
+    EXPECT_EQ(resolution_of(0, 1), 0.5);  // 6.6 ms a frame of 32 candidates, without a dial
+    EXPECT_EQ(cell_of(results, 1, "mean")["resolution"], 1.0);
+}
+
 TEST(BenchProtocol, EqualTimeNamesTheBestAndHowFarTheOthersAreFromIt) {
     const TemporaryFolder folder;
     ToySource source(std::vector<ToyFault>(2));

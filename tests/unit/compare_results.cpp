@@ -78,7 +78,7 @@ TEST_F(CompareResults, APassSlowedByAFifthIsToldByItsName) {
     const auto told = tell(steady_, run_with(fault, 5, 1.3));
     EXPECT_TRUE(has(told, "slower toy 24x16, ris, mean of 16: pass toy/shade"));
     EXPECT_TRUE(only_second(told));
-    EXPECT_FALSE(has(told, "toy/gbuffer"));
+    EXPECT_FALSE(has(told, "toy/resolve"));
     EXPECT_FALSE(has(told, "worse"));
 }
 

@@ -20,11 +20,11 @@ constexpr std::uint32_t FRAMES_PER_CELL = 1u << 20;
 constexpr std::uint32_t CALIBRATION_FRAME = 1u << 30;
 
 double time_frame_ms(FrameSource& source, std::size_t method, int warm_up_frames,
-                     const RenderSettings& settings) {
+                     const RenderSettings& settings, double resolution) {
     std::vector<double> ms;
     for (int i = 0; i < warm_up_frames + TIMED_FRAMES; ++i) {
         const RenderedFrame frame =
-            source.render({method, settings, 0, CALIBRATION_FRAME + std::uint32_t(i), i == 0});
+            source.render({method, settings, 0, CALIBRATION_FRAME + std::uint32_t(i), i == 0, 0, resolution});
         if (i >= warm_up_frames) ms.push_back(frame.timings.frame_ms);
     }
     return quantile(ms, 0.5);
@@ -33,11 +33,15 @@ double time_frame_ms(FrameSource& source, std::size_t method, int warm_up_frames
 nlohmann::json note_of(const Cell& cell) {
     nlohmann::json settings;
     for (const Setting& setting : setting_table()) settings[setting.name] = setting.get(cell.fit.settings);
-    return {{"frames", cell.fit.frames}, {"expected_ms", cell.fit.expected_ms}, {"settings", settings}};
+    return {{"resolution", cell.fit.resolution},
+            {"frames", cell.fit.frames},
+            {"expected_ms", cell.fit.expected_ms},
+            {"settings", settings}};
 }
 
 TimeFit read_fit(const nlohmann::json& note) {
     TimeFit fit;
+    fit.resolution = note.at("resolution");
     fit.frames = note.at("frames");
     fit.expected_ms = note.at("expected_ms");
     for (const Setting& setting : setting_table())
@@ -55,8 +59,8 @@ double try_fit(FrameSource& source, const Method& method, std::size_t index, con
     double ms = 0.0;
     const int warm_up_frames = std::min(method.warm_up_frames, TIMING_WARM_UP_FRAMES);
     for (int i = 0; i < warm_up_frames + fit.frames; ++i) {
-        const RenderedFrame frame =
-            source.render({index, fit.settings, 0, CALIBRATION_FRAME + std::uint32_t(i), i == 0});
+        const RenderedFrame frame = source.render(
+            {index, fit.settings, 0, CALIBRATION_FRAME + std::uint32_t(i), i == 0, 0, fit.resolution});
         if (i >= warm_up_frames) ms += frame.timings.frame_ms;
     }
     return ms;
@@ -64,15 +68,17 @@ double try_fit(FrameSource& source, const Method& method, std::size_t index, con
 
 // What a single picture can spend: a camera that moves has no second frame to average with.
 TimeFit keep_one_frame(const TimeFit& fit) {
-    return {fit.settings, 1, fit.expected_ms / fit.frames};
+    return {fit.settings, fit.resolution, 1, fit.expected_ms / fit.frames};
 }
 
 Cell plan_cell(const BenchPlan& plan, std::size_t method_index, int budget, FrameSource& source) {
     const Method& method = plan.methods[method_index];
-    if (budget < 0) return {method_index, budget, {method.settings, plan.moving ? 1 : plan.frames, 0.0}};
-    const auto timer = [&](const RenderSettings& settings) {
+    if (budget < 0) {
+        return {method_index, budget, {method.settings, 1.0, plan.moving ? 1 : plan.frames, 0.0}};
+    }
+    const auto timer = [&](const RenderSettings& settings, double resolution) {
         return time_frame_ms(source, method_index, std::min(method.warm_up_frames, TIMING_WARM_UP_FRAMES),
-                             settings);
+                             settings, resolution);
     };
     const double budget_ms = plan.budgets_ms[std::size_t(budget)];
     Cell cell{method_index, budget, {}};
@@ -90,6 +96,7 @@ SequenceRequest request_for(const BenchPlan& plan, const Cell& cell, std::uint32
     SequenceRequest request;
     request.method = cell.method;
     request.settings = cell.fit.settings;
+    request.resolution = cell.fit.resolution;
     request.seed = seed;
     request.first_frame = FRAMES_PER_CELL * std::uint32_t(cell.budget + 1);
     request.warm_up_frames = plan.methods[cell.method].warm_up_frames;
@@ -107,7 +114,7 @@ std::string unit_name(const Cell& cell, std::uint32_t seed) {
 std::vector<Cell> plan_cells(const BenchPlan& plan, FrameSource& source, const WorkFolder& work) {
     std::vector<Cell> cells;
     for (std::size_t method = 0; method < plan.methods.size(); ++method) {
-        time_frame_ms(source, method, 0, plan.methods[method].settings);  // compiles the shaders
+        time_frame_ms(source, method, 0, plan.methods[method].settings, 1.0);  // compiles the shaders
         for (int budget = -1; budget < int(plan.budgets_ms.size()); ++budget) {
             Cell cell{method, budget, {}};
             const nlohmann::json note = work.load_note(cell_name(cell));

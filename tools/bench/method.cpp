@@ -32,6 +32,8 @@ constexpr MethodRow METHODS[] = {
      RESTIR_WARM_UP_FRAMES},
     {"restir-balanced", "ReSTIR, preset balanced: the chosen sample traced", "preset=balanced", "candidates",
      RESTIR_WARM_UP_FRAMES},
+    {"restir-fine", "ReSTIR, preset fine: lights by the light tree, a sample for each colour", "preset=fine",
+     "candidates", RESTIR_WARM_UP_FRAMES},
     {"restir-unbiased", "ReSTIR, preset unbiased: rays in all MIS weights", "preset=unbiased", "candidates",
      RESTIR_WARM_UP_FRAMES},
 };

@@ -176,12 +176,17 @@ Json describe_view(const BenchPlan& plan, const CellView& view, const Truth& tru
     Json json = {{"kind", view.kind}, {"budget_ms", nullptr}};
     if (cell.budget >= 0) json["budget_ms"] = plan.budgets_ms[std::size_t(cell.budget)];
     json["frames"] = is_first(view) ? 1 : cell.fit.frames;
+    json["resolution"] = cell.fit.resolution;
     json["settings"] = describe_settings(cell.fit.settings);
     json["ms"] = {{"median", quantile(ms, 0.5)}, {"p95", quantile(ms, 0.95)}, {"per_seed", ms}};
     json["errors"] = describe_errors(view);
     json["bias"] = describe_bias(view, truth);
     json["relative_bias"] = describe_relative_bias(view, truth);
     json["flicker"] = describe_values(collect(view, [](const SequenceMeasure& m) { return m.flicker; }));
+    if (cell.budget < 0) {
+        json["shared_samples"] =
+            describe_values(collect(view, [](const SequenceMeasure& m) { return m.shared_samples; }));
+    }
     json["counts"] = describe_counts(view, truth.radiance.pixel_count());
     json["frame_ms"] = describe_times([&] {
         std::vector<std::vector<double>> seeds;

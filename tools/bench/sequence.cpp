@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/statistics.h"
 #include "metrics/flip.h"
+#include "metrics/shared_samples.h"
 
 namespace tarn {
 namespace {
@@ -106,8 +107,18 @@ double mean_absolute_change(const Image& before, const Image& after) {
 void warm_up(FrameSource& source, const SequenceRequest& request) {
     for (int i = 0; i < request.warm_up_frames; ++i) {
         source.render({request.method, request.settings, request.seed, request.first_frame + std::uint32_t(i),
-                       i == 0, request.warm_up_frames - i});
+                       i == 0, request.warm_up_frames - i, request.resolution});
     }
+}
+
+// Which samples the frame after the sequence chose, as a picture, and how many of them neighbours share.
+double measure_sharing(FrameSource& source, const SequenceRequest& request) {
+    RenderSettings settings = request.settings;
+    settings.debug_view = DebugView::SAMPLES;
+    const auto number = request.first_frame + std::uint32_t(request.warm_up_frames + request.frames);
+    return find_shared_sample_share(
+        source.render({request.method, settings, request.seed, number, false, 0, request.resolution})
+            .radiance);
 }
 
 // What the counters gained since `before`.
@@ -184,8 +195,9 @@ MeasuredSequence measure_sequence(FrameSource& source, const Truth& truth, const
     warm_up(source, request);
     for (int i = 0; i < request.frames; ++i) {
         const std::uint32_t number = request.first_frame + std::uint32_t(request.warm_up_frames + i);
+        const bool starts = i == 0 && request.warm_up_frames == 0;
         RenderedFrame frame = source.render(
-            {request.method, request.settings, request.seed, number, i == 0 && request.warm_up_frames == 0});
+            {request.method, request.settings, request.seed, number, starts, 0, request.resolution});
         add_timings(measure, frame.timings);
         measure.rays += frame.rays;
         FrameSum sum{{frame.radiance.values.begin(), frame.radiance.values.end()}, 1};
@@ -205,7 +217,10 @@ MeasuredSequence measure_sequence(FrameSource& source, const Truth& truth, const
     result.mean = total.mean(truth.radiance);
     measure.first = measure_picture(truth, result.first);
     measure.mean = request.frames > 1 ? measure_picture(truth, result.mean) : measure.first;
-    if (request.with_curve) measure.curve = curve.points();
+    if (request.with_curve) {
+        measure.curve = curve.points();
+        measure.shared_samples = measure_sharing(source, request);
+    }
     return result;
 }
 

@@ -29,6 +29,8 @@ struct FrameRequest {
     std::uint32_t frame = 0;  // its number
     bool starts = false;      // drops all history before it
     int lead = 0;             // frames until the first that counts: where on its way a moving camera is
+    double resolution =
+        1.0;  // rendered width and height, as a share of the picture's; the picture is enlarged
 };
 
 // What renders for the benchmark: the renderer, or a stand-in in tests.
@@ -90,6 +92,7 @@ struct SequenceMeasure {
     std::vector<PassSamples> passes;  // in the order in which they first ran
     std::uint64_t rays = 0;           // of all frames
     double flicker = 0.0;             // mean |frame - frame before| over the truth's mean
+    double shared_samples = 0.0;      // share of pixels with the very sample of a neighbour, one frame later
     int repeated_frames = 0;          // equal to the frame before, bit for bit: a frame got lost
     PictureErrors first;              // of the first frame
     PictureErrors mean;               // of the mean of all frames
@@ -106,11 +109,13 @@ struct MeasuredSequence {
 struct SequenceRequest {
     std::size_t method = 0;
     RenderSettings settings;
+    double resolution = 1.0;
     std::uint32_t seed = 0;
     std::uint32_t first_frame = 0;
     int warm_up_frames = 0;  // rendered before, and forgotten
     int frames = 1;
-    bool with_curve = false;  // frames must be a power of two
+    bool with_curve =
+        false;  // errors of means of frames, a power of two of them, and which samples are shared
 };
 
 MeasuredSequence measure_sequence(FrameSource& source, const Truth& truth, const SequenceRequest& request);

@@ -12,7 +12,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ImageErrors, mse, rmse, rel_mse, rel_mse_trim
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PictureErrors, linear, flip_ldr)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CurvePoint, frames, mse, rel_mse, rel_mse_trimmed)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PassSamples, name, ms)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SequenceMeasure, frame_ms, passes, rays, flicker, repeated_frames, first,
-                                   mean, counters, curve)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SequenceMeasure, frame_ms, passes, rays, flicker, shared_samples,
+                                   repeated_frames, first, mean, counters, curve)
 
 }  // namespace tarn

@@ -9,10 +9,28 @@ namespace {
 constexpr int TRIALS = 4;
 constexpr double GROWTH = 4.0;        // of the dial, until a frame exceeds the budget
 constexpr double GOOD_ENOUGH = 0.03;  // of the budget: below what a machine repeats
+constexpr double FITTING = 1.1;       // of the budget: what still passes for it
+constexpr double RESOLUTIONS[] = {0.75, 0.5, 0.375, 0.25};
+// A frame that would take longer than that if it cost what its pixels do is not tried.
+constexpr double HOPELESS = 1.5;
+
+// The largest resolution at which the method's cheapest frame, of `full_ms` at full size, fits.
+TimeFit lower_resolution(const RenderSettings& settings, double full_ms, double budget_ms,
+                         const FrameTimer& time_frame_ms) {
+    TimeFit fit{settings, 1.0, 1, full_ms};
+    for (const double resolution : RESOLUTIONS) {
+        if (fit.expected_ms <= FITTING * budget_ms) break;
+        const bool is_last = resolution == *std::rbegin(RESOLUTIONS);
+        if (!is_last && full_ms * resolution * resolution > HOPELESS * budget_ms) continue;
+        fit.resolution = resolution;
+        fit.expected_ms = time_frame_ms(settings, resolution);
+    }
+    return fit;
+}
 
 TimeFit fill_with_frames(const RenderSettings& settings, double frame_ms, double budget_ms) {
     const int frames = std::max(1, int(std::lround(budget_ms / std::max(frame_ms, 1e-6))));
-    return {settings, frames, frames * frame_ms};
+    return {settings, 1.0, frames, frames * frame_ms};
 }
 
 struct DialPoint {
@@ -30,16 +48,18 @@ double interpolate_value(const DialPoint& low, const DialPoint& high, double bud
 
 TimeFit fit_budget(const Method& method, double budget_ms, const FrameTimer& time_frame_ms) {
     if (method.dial.empty()) {
-        return fill_with_frames(method.settings, time_frame_ms(method.settings), budget_ms);
+        const double ms = time_frame_ms(method.settings, 1.0);
+        if (ms > FITTING * budget_ms) return lower_resolution(method.settings, ms, budget_ms, time_frame_ms);
+        return fill_with_frames(method.settings, ms, budget_ms);
     }
     const Setting& dial = find_setting(method.dial);
     RenderSettings settings = method.settings;
     const auto time_value = [&](double value) {
         dial.set(settings, value);
-        return DialPoint{value, time_frame_ms(settings)};
+        return DialPoint{value, time_frame_ms(settings, 1.0)};
     };
     DialPoint low = time_value(dial.minimum);
-    if (low.ms >= budget_ms) return {settings, 1, low.ms};
+    if (low.ms >= budget_ms) return lower_resolution(settings, low.ms, budget_ms, time_frame_ms);
     DialPoint high = low;
     while (high.ms < budget_ms) {
         if (high.value >= dial.maximum) return fill_with_frames(settings, high.ms, budget_ms);
@@ -56,7 +76,7 @@ TimeFit fit_budget(const Method& method, double budget_ms, const FrameTimer& tim
         }
     }
     dial.set(settings, low.value);
-    return {settings, 1, low.ms};
+    return {settings, 1.0, 1, low.ms};
 }
 
 }  // namespace tarn

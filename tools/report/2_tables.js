@@ -10,8 +10,9 @@ function describeCell(cell) {
 // What was done to fill the budget: frames, or a turned dial.
 function describeEffort(method, cell) {
   const dial = method.dial && cell.kind === "budget" ? `${method.dial} ${cell.settings[method.dial]}` : "";
+  const resolution = cell.resolution < 1 ? `${100 * cell.resolution} % of the size, ` : "";
   const frames = cell.frames === 1 ? "1 frame" : `${cell.frames} frames`;
-  return dial && cell.frames === 1 ? dial : dial ? `${frames}, ${dial}` : frames;
+  return resolution + (dial && cell.frames === 1 ? dial : dial ? `${frames}, ${dial}` : frames);
 }
 
 function makeBias(bias) {
@@ -47,10 +48,10 @@ function makeErrorTable(scene) {
 }
 
 function makeDetailTable(scene) {
-  return makeCellTable(scene, ["by", "MSE", "bias²", "variance", "MAPE %", "RMSPE %", "correlation", "flicker", "rays/px"],
+  return makeCellTable(scene, ["by", "MSE", "bias²", "variance", "MAPE %", "RMSPE %", "correlation", "shared %", "flicker", "rays/px"],
     (cell, method) => [describeEffort(method, cell), makeEstimate(cell.errors.mse), makeBias(cell.bias), formatNumber(cell.bias.variance),
       makeEstimate(cell.errors.mape), makeEstimate(cell.errors.rmspe), formatNumber(cell.bias.neighbour_autocorrelation),
-      formatNumber(cell.flicker.mean), formatNumber(cell.counts.rays_per_pixel)]);
+      cell.shared_samples ? formatNumber(100 * cell.shared_samples.mean) : "–", formatNumber(cell.flicker.mean), formatNumber(cell.counts.rays_per_pixel)]);
 }
 
 function makeEqualErrorTable(scene) {

@@ -59,6 +59,7 @@ BenchPlan make_plan(const BenchCommand& command) {
     BenchPlan plan;
     plan.methods = parse_methods(command.methods);
     plan.budgets_ms = command.budgets_ms;
+    std::erase(plan.budgets_ms, 0.0);
     std::sort(plan.budgets_ms.begin(), plan.budgets_ms.end());
     plan.seeds = command.seeds;
     plan.first_seed = command.options.scene.seed;
@@ -118,8 +119,7 @@ Json bench_scene(const BenchCommand& command, const BenchPlan& plan, const std::
     if (work.is_resumed()) fmt::print("{}: going on where an earlier run stopped\n", name);
     const Truth truth = find_direct_truth(session, options, reference);
 
-    RendererSource source(world, session.tracer(), options.scene.width, options.scene.height,
-                          plan.methods.size());
+    RendererSource source(world, session.tracer(), options.scene.width, options.scene.height);
     source.set_camera(camera, camera_motion(command));
     const std::vector<Cell> cells = plan_cells(plan, source, work);
     measure_cells(plan, cells, source, truth, work, interrupt_flag());
@@ -236,9 +236,10 @@ void add_bench_command(CLI::App& app) {
     sub->add_option("--methods", command->methods,
                     "Methods to compare: NAME[:setting=value[,setting=value]], separated by commas")
         ->capture_default_str();
-    sub->add_option("--budgets", command->budgets_ms, "Equal times to compare at, ms, separated by commas")
+    sub->add_option("--budgets", command->budgets_ms,
+                    "Equal times to compare at, ms, separated by commas; 0: none")
         ->delimiter(',')
-        ->check(CLI::Range(0.1, 1e6))
+        ->check(make_finite_range(0.0, 1e6))
         ->capture_default_str();
     sub->add_option("--seeds", command->seeds, "Independent seeds a method")
         ->check(CLI::Range(3, 1000))

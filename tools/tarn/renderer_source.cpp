@@ -1,28 +1,49 @@
 #include "renderer_source.h"
 
+#include <algorithm>
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "core/resize.h"
+
 namespace tarn {
+
+CameraRecord turn_camera(const CameraRecord& camera, double turn_deg) {
+    CameraRecord turned = camera;
+    const glm::mat3 turn(glm::rotate(glm::dmat4(1.0), glm::radians(turn_deg), glm::dvec3(camera.up)));
+    turned.right = turn * camera.right;
+    turned.forward = turn * camera.forward;
+    return turned;
+}
 
 CameraRecord camera_before(const CameraRecord& arrived, const CameraMotion& motion, int lead) {
     CameraRecord camera = arrived;
     camera.position -= glm::normalize(arrived.right) * float(motion.walk_m * lead);
-    const glm::mat3 turn(
-        glm::rotate(glm::dmat4(1.0), glm::radians(-motion.turn_deg * lead), glm::dvec3(arrived.up)));
-    camera.right = turn * arrived.right;
-    camera.forward = turn * arrived.forward;
-    return camera;
+    return turn_camera(camera, -motion.turn_deg * lead);
 }
 
-RendererSource::RendererSource(World& world, const RayTracer& tracer, int width_px, int height_px,
-                               std::size_t method_count) {
-    for (std::size_t i = 0; i < method_count; ++i) {
-        renderers_.push_back(std::make_unique<Renderer>(world, tracer, width_px, height_px));
+namespace {
+
+int scale_size(int size_px, double resolution) {
+    return std::max(1, int(std::lround(size_px * resolution)));
+}
+
+}  // namespace
+
+RendererSource::RendererSource(World& world, const RayTracer& tracer, int width_px, int height_px)
+    : world_(world), tracer_(tracer), width_px_(width_px), height_px_(height_px) {}
+
+Renderer& RendererSource::find_renderer(std::size_t method, double resolution) {
+    std::unique_ptr<Renderer>& renderer = renderers_[{method, resolution}];
+    if (!renderer) {
+        renderer = std::make_unique<Renderer>(world_, tracer_, scale_size(width_px_, resolution),
+                                              scale_size(height_px_, resolution));
     }
+    return *renderer;
 }
 
 void RendererSource::update() {
-    for (const auto& renderer : renderers_) renderer->update();
+    for (const auto& [key, renderer] : renderers_) renderer->update();
 }
 
 void RendererSource::set_camera(const CameraRecord& camera, const CameraMotion& motion) {
@@ -31,7 +52,7 @@ void RendererSource::set_camera(const CameraRecord& camera, const CameraMotion& 
 }
 
 RenderedFrame RendererSource::render(const FrameRequest& request) {
-    Renderer& renderer = *renderers_[request.method];
+    Renderer& renderer = find_renderer(request.method, request.resolution);
     if (request.starts) renderer.reset_history();
     FrameInput input;
     input.camera = camera_before(camera_, motion_, request.lead);
@@ -39,11 +60,18 @@ RenderedFrame RendererSource::render(const FrameRequest& request) {
     input.seed = request.seed;
     input.settings = request.settings;
     const FrameOutput output = renderer.render(input);
-    return {renderer.read_radiance(output.radiance), output.timings, output.shadow_rays.traced};
+    Image radiance = renderer.read_radiance(output.radiance);
+    if (request.resolution < 1.0) radiance = resize_bilinear(radiance, width_px_, height_px_);
+    return {std::move(radiance), output.timings, output.shadow_rays.traced};
 }
 
 std::map<std::string, std::uint64_t> RendererSource::read_counters(std::size_t method) {
-    return renderers_[method]->read_counters();
+    std::map<std::string, std::uint64_t> counts = find_renderer(method, 1.0).read_counters();
+    for (const auto& [key, renderer] : renderers_) {
+        if (key.first != method || key.second == 1.0) continue;
+        for (const auto& [name, count] : renderer->read_counters()) counts[name] += count;
+    }
+    return counts;
 }
 
 }  // namespace tarn

@@ -1,8 +1,10 @@
-// The renderer as the benchmark's source of frames: one renderer a method, so that each keeps its own
-// history.
+// The renderer as the benchmark's source of frames: one renderer for each method and resolution, so that each
+// keeps its own history.
 #pragma once
 
+#include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "bench/sequence.h"
@@ -18,14 +20,16 @@ struct CameraMotion {
     bool is_still() const { return walk_m == 0.0 && turn_deg == 0.0; }
 };
 
+// The camera turned to the left about its up.
+CameraRecord turn_camera(const CameraRecord& camera, double turn_deg);
+
 // Where a camera that moves so is `lead` frames before it arrives.
 CameraRecord camera_before(const CameraRecord& arrived, const CameraMotion& motion, int lead);
 
 class RendererSource : public FrameSource {
   public:
     // `world` and `tracer` must outlive it; needs a current GL context.
-    RendererSource(World& world, const RayTracer& tracer, int width_px, int height_px,
-                   std::size_t method_count);
+    RendererSource(World& world, const RayTracer& tracer, int width_px, int height_px);
 
     // What the next frames look at; a moving camera arrives there with the first frame that counts.
     void set_camera(const CameraRecord& camera, const CameraMotion& motion = {});
@@ -35,10 +39,17 @@ class RendererSource : public FrameSource {
     RenderedFrame render(const FrameRequest& request) override;
     std::map<std::string, std::uint64_t> read_counters(std::size_t method) override;
 
-    Renderer& renderer(std::size_t method) { return *renderers_[method]; }
+    Renderer& renderer(std::size_t method) { return find_renderer(method, 1.0); }
 
   private:
-    std::vector<std::unique_ptr<Renderer>> renderers_;
+    // Made when it is first asked for, and with it its history.
+    Renderer& find_renderer(std::size_t method, double resolution);
+
+    World& world_;
+    const RayTracer& tracer_;
+    int width_px_;
+    int height_px_;
+    std::map<std::pair<std::size_t, double>, std::unique_ptr<Renderer>> renderers_;  // [method, resolution]
     CameraRecord camera_{};
     CameraMotion motion_;
 };

@@ -25,8 +25,9 @@ enum class SampleVisibility { TRACE, REUSE, AVERAGED };
 // What lights a pixel: the sample that it chose, or all samples of the last step, each by its weight.
 enum class SampleShading { CHOSEN, ALL };
 
-// What the picture shows instead of light: the visibility of the chosen samples, or their light without it.
-enum class DebugView { NONE, VISIBILITY, UNSHADOWED };
+// What the picture shows instead of light: the visibility of the chosen samples, their light without it, or
+// which samples they are, each in a colour of its own.
+enum class DebugView { NONE, VISIBILITY, UNSHADOWED, SAMPLES };
 
 struct DirectSettings {
     DirectMode direct = DirectMode::RIS;
@@ -38,6 +39,7 @@ struct DirectSettings {
     int spatial_iterations = 1;
     int neighbours = 3;
     double radius_px = 30.0;
+    bool feedback = true;
     Mis mis = Mis::PAIRWISE;
     bool mis_visibility = false;
     SampleVisibility visibility = SampleVisibility::TRACE;
@@ -67,6 +69,7 @@ struct DirectSettings {
     bool reuses_space() const {
         return uses_restir() && (reuse == Reuse::SPATIAL || reuse == Reuse::SPATIOTEMPORAL);
     }
+    bool reuses_both() const { return reuses_time() && reuses_space(); }
     bool reuses() const { return reuses_time() || reuses_space(); }
 
     bool takes_samples() const { return !reuses(); }

@@ -17,6 +17,7 @@ const Program& DirectShadePass::prepare(const DirectFrame& direct, std::vector<s
     if (direct.settings.per_channel) defines.emplace_back("TARN_ONE_CHANNEL");
     if (direct.settings.debug_view == DebugView::VISIBILITY) defines.emplace_back("TARN_SHOW_VISIBILITY");
     if (direct.settings.debug_view == DebugView::UNSHADOWED) defines.emplace_back("TARN_SHOW_UNSHADOWED");
+    if (direct.settings.debug_view == DebugView::SAMPLES) defines.emplace_back("TARN_SHOW_SAMPLES");
     const Program& program = programs_.compute("direct/shade", defines);
     program.set("target_weights", direct.target_weights);
     program.set("share", 1.0f / float(direct.settings.sample_count()));

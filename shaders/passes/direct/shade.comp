@@ -3,7 +3,7 @@
 // TARN_SHADED: with the light that the last step of reuse has summed over all its samples instead.
 // TARN_RESERVOIR_VISIBILITY: visibility is what the reservoir knows; else a ray was traced for it.
 // TARN_SHOW_VISIBILITY: the visibility term itself instead of light; TARN_SHOW_UNSHADOWED: light without it. Figures 1c,
-// 1d and 1e of Tokuyoshi's supplement.
+// 1d and 1e of Tokuyoshi's supplement. TARN_SHOW_SAMPLES: a colour for each light sample; pixels of one colour share it.
 // TARN_ONE_CHANNEL: the sample stands for the channel of `target_weights` alone. TARN_ADD: to what is there already.
 #include "lib/scene_buffers.glsl"
 #include "lib/frame.glsl"
@@ -35,6 +35,12 @@ float load_visibility(ivec2 pixel, Reservoir reservoir) {
 #endif
 }
 
+// Never black. Different samples have the same colour once in 2^24.
+vec3 sample_colour(LightSample chosen) {
+    uvec4 bits = hash_pcg4d(uvec4(chosen.light, floatBitsToUint(chosen.uv), 1u));
+    return (vec3(bits.xyz >> 24u) + 1.0f) / 256.0f;
+}
+
 vec3 chosen_light(ivec2 pixel, Receiver receiver) {
     int row = int(pixel_index(pixel) * RESERVOIR_ROWS);
     Reservoir reservoir = unpack_reservoir(texelFetch(reservoirs, row), texelFetch(reservoirs, row + 1));
@@ -43,6 +49,9 @@ vec3 chosen_light(ivec2 pixel, Receiver receiver) {
     reflected *= reservoir.contribution_weight * visible;
 #ifdef TARN_SHOW_VISIBILITY
     reflected = vec3(reservoir.contribution_weight > 0.0f ? visible : 0.0f);
+#endif
+#ifdef TARN_SHOW_SAMPLES
+    reflected = reservoir.contribution_weight > 0.0f ? sample_colour(reservoir.chosen) : vec3(0.0f);
 #endif
     return reflected;
 }
@@ -67,7 +76,7 @@ void main() {
     vec3 radiance = imageLoad(radiance_image, pixel).xyz;
 #else
     vec3 radiance = load_layer(pixel, LAYER_EMISSION).xyz;
-#ifdef TARN_SHOW_VISIBILITY
+#if defined(TARN_SHOW_VISIBILITY) || defined(TARN_SHOW_SAMPLES)
     radiance = vec3(0.0f);
 #endif
 #endif

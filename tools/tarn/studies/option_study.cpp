@@ -38,16 +38,13 @@ Variant measure(RenderSession& session, const OptionStudy& study, const StudySeq
         StudySequence sequence = base;
         sequence.settings = settings;
         sequence.seed += std::uint32_t(k);
-        std::vector<double> sum;
+        FrameMean mean;
         Image last;
         render_sequence(session.renderer(), sequence, [&](int, const Image& radiance, RenderSettings&) {
-            sum.resize(radiance.values.size());
-            for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += radiance.values[i];
+            mean.add(radiance);
             last = radiance;
         });
-        Image mean = last;
-        for (std::size_t i = 0; i < sum.size(); ++i) mean.values[i] = float(sum[i] / study.frames);
-        variant.means.push_back(std::move(mean));
+        variant.means.push_back(mean.mean());
         variant.lasts.push_back(std::move(last));
     }
     return variant;

@@ -45,17 +45,6 @@ void render_sequence(Renderer& renderer, const StudySequence& sequence, const Fr
     }
 }
 
-Image render_mean(Renderer& renderer, const StudySequence& sequence) {
-    std::vector<double> sum;
-    Image mean(renderer.width_px(), renderer.height_px(), 3);
-    sum.resize(mean.values.size());
-    render_sequence(renderer, sequence, [&](int, const Image& radiance, RenderSettings&) {
-        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += radiance.values[i];
-    });
-    for (std::size_t i = 0; i < sum.size(); ++i) mean.values[i] = float(sum[i] / sequence.frames);
-    return mean;
-}
-
 double mean_value(const std::vector<Image>& images, std::size_t left_out) {
     RunningMoments moments;
     for (std::size_t k = 0; k < images.size(); ++k) {
@@ -84,6 +73,7 @@ void add_study_command(CLI::App& app) {
     add_option_study(*study);
     add_light_count_study(*study);
     add_fault_study(*study);
+    add_lag_study(*study);
 }
 
 }  // namespace tarn

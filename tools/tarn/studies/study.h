@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "metrics/frame_mean.h"
 #include "metrics/seed_statistics.h"
 #include "session.h"
 
@@ -18,6 +19,7 @@ void add_visibility_study(CLI::App& study);
 void add_option_study(CLI::App& study);
 void add_light_count_study(CLI::App& study);
 void add_fault_study(CLI::App& study);
+void add_lag_study(CLI::App& study);
 
 // A new folder that goes with the object. Throws Error where none can be made.
 class TemporaryFolder {
@@ -51,9 +53,6 @@ using FrameVisitor = std::function<void(int frame, const Image& radiance, Render
 
 // Throws Error on Ctrl-C. Reads back none of the warm-up.
 void render_sequence(Renderer& renderer, const StudySequence& sequence, const FrameVisitor& visit);
-
-// The mean of the frames after the warm-up.
-Image render_mean(Renderer& renderer, const StudySequence& sequence);
 
 // The mean of all values of all images but number `left_out`.
 double mean_value(const std::vector<Image>& images, std::size_t left_out);

@@ -64,21 +64,17 @@ RenderSettings settings_of(const VisibilityStudy& study, const Mode& mode) {
 
 void measure_seed(Renderer& renderer, const StudySequence& sequence, ModeImages& images) {
     constexpr int TERM_FRAME = 0, UNSHADOWED_FRAME = 1, LIGHT_FRAMES = 2;
-    std::vector<double> sum(3 * std::size_t(renderer.width_px()) * std::size_t(renderer.height_px()));
+    FrameMean light;
     StudySequence looked_at = sequence;
     looked_at.frames += LIGHT_FRAMES;
     looked_at.settings.debug_view = DebugView::VISIBILITY;
     render_sequence(renderer, looked_at, [&](int frame, const Image& radiance, RenderSettings& next) {
         if (frame == TERM_FRAME) images.terms.push_back(radiance);
         if (frame == UNSHADOWED_FRAME) images.unshadowed.push_back(radiance);
-        if (frame >= LIGHT_FRAMES) {
-            for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += radiance.values[i];
-        }
+        if (frame >= LIGHT_FRAMES) light.add(radiance);
         next.debug_view = frame == TERM_FRAME ? DebugView::UNSHADOWED : DebugView::NONE;
     });
-    Image mean(renderer.width_px(), renderer.height_px(), 3);
-    for (std::size_t i = 0; i < sum.size(); ++i) mean.values[i] = float(sum[i] / sequence.frames);
-    images.means.push_back(std::move(mean));
+    images.means.push_back(light.mean());
 }
 
 // All modes, seed by seed.
@@ -259,7 +255,10 @@ void add_visibility_study(CLI::App& app) {
     study->options.scene.scene = "coloured_lights";
     study->options.scene.width = 128;
     study->options.scene.height = 72;
+    // As the paper has it: what neighbours gave is what the next frame finds.
     study->options.settings = find_preset("fast").settings;
+    study->options.settings.feedback = true;
+    study->options.settings.radius_px = 30.0;
     add_render_options(*sub, study->options);
     sub->get_option("SCENE")->required(false);
     sub->add_option("--seeds", study->seeds, "Independent seeds")
