@@ -41,6 +41,52 @@ CameraKey read_key(const json& object, const std::string& where) {
     return key;
 }
 
+std::optional<glm::dvec3> read_optional_point(const json& object, const char* key, const std::string& where) {
+    if (!object.contains(key)) return std::nullopt;
+    return read_point(object, key, where);
+}
+
+NodeKey read_node_key(const json& object, const std::string& where) {
+    if (!object.is_object()) throw Error("{} is not an object", where);
+    NodeKey key;
+    key.time_s = read_number(object, "time_s", where);
+    key.position_ns = read_optional_point(object, "position", where);
+    key.rotation_deg = read_optional_point(object, "rotation_deg", where);
+    if (!key.position_ns && !key.rotation_deg) {
+        throw Error("{}: has neither 'position' nor 'rotation_deg'", where);
+    }
+    return key;
+}
+
+// A list of keys, at least one, their times increasing. `what` they are keys of.
+template <class Read>
+auto read_keys(const json& object, const std::string& where, const char* what, const Read& read) {
+    const json list = object.value("keys", json());
+    if (!list.is_array() || list.empty()) throw Error("{}: 'keys' is not a list of {} keys", where, what);
+    std::vector<decltype(read(list[0], where))> keys;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const std::string key_where = fmt::format("{}: key {}", where, i);
+        keys.push_back(read(list[i], key_where));
+        if (i > 0 && keys[i].time_s <= keys[i - 1].time_s) {
+            throw Error("{}: its time {} s is not after the key before", key_where, keys[i].time_s);
+        }
+    }
+    return keys;
+}
+
+std::vector<NodeTrack> read_tracks(const json& document, const std::string& where) {
+    const json list = document.value("tracks", json::array());
+    if (!list.is_array()) throw Error("{}: 'tracks' is not a list", where);
+    std::vector<NodeTrack> tracks;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const std::string track_where = fmt::format("{}: track {}", where, i);
+        const bool is_named = list[i].is_object() && list[i].contains("node") && list[i]["node"].is_string();
+        if (!is_named) throw Error("{}: 'node' is not the name of a node", track_where);
+        tracks.push_back({list[i]["node"], read_keys(list[i], track_where, "node", read_node_key)});
+    }
+    return tracks;
+}
+
 json read_json(const std::filesystem::path& file) {
     std::ifstream stream(file);
     if (!stream) throw Error("{}: cannot be opened", file.string());
@@ -75,16 +121,8 @@ CameraPath load_camera_path(const std::filesystem::path& file) {
     CameraPath path;
     path.name = file.stem().string();
     if (document.contains("scene") && document["scene"].is_string()) path.scene = document["scene"];
-    const json keys = document.value("keys", json());
-    if (!keys.is_array() || keys.empty())
-        throw Error("{}: 'keys' is not a list of camera keys", file.string());
-    for (std::size_t i = 0; i < keys.size(); ++i) {
-        const std::string where = fmt::format("{}: key {}", file.string(), i);
-        path.keys.push_back(read_key(keys[i], where));
-        if (i > 0 && path.keys[i].time_s <= path.keys[i - 1].time_s) {
-            throw Error("{}: its time {} s is not after the key before", where, path.keys[i].time_s);
-        }
-    }
+    path.keys = read_keys(document, file.string(), "camera", read_key);
+    path.tracks = read_tracks(document, file.string());
     path.duration_s = path.keys.back().time_s;
     return path;
 }

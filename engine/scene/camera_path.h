@@ -1,8 +1,10 @@
-// A flythrough: camera keys in time, joined by a smooth curve.
+// A flythrough: camera keys in time, joined by a smooth curve, and nodes of the scene that go their own ways
+// meanwhile.
 #pragma once
 
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,11 +17,25 @@ struct CameraKey {
     double vertical_fov_deg = 60.0;
 };
 
+// Where a node is at a moment, relative to its parent as its own placement is; what is not given stays.
+struct NodeKey {
+    double time_s = 0.0;
+    std::optional<glm::dvec3> position_ns;
+    std::optional<glm::dvec3> rotation_deg;  // about x, then y, then z
+};
+
+// The way of one node: a lamp, a light, an object and what hangs on it.
+struct NodeTrack {
+    std::string node;           // its name
+    std::vector<NodeKey> keys;  // at least one, times strictly increasing
+};
+
 struct CameraPath {
     std::string name;
     std::string scene;  // the scene it was made for; a name or a path
     double duration_s = 0.0;
     std::vector<CameraKey> keys;  // at least one, times strictly increasing
+    std::vector<NodeTrack> tracks;
 };
 
 // Reads a path file (JSON; content/README.md describes it). Throws Error that names the file and what is

@@ -136,6 +136,24 @@ TEST_F(BenchCommand, WrongWordsAreOneLine) {
     EXPECT_EQ(run_tarn({"bench", "--frames", "5"}).status, 2);
 }
 
+// A lamp and a block move along with the camera, and the reference with them: were one of the two to lag,
+// light and shadows would lie elsewhere.
+TEST_F(BenchCommand, LightsAndObjectsOfAPathMove) {
+    const std::string path = TARN_SOURCE_DIR "/content/flythroughs/cornell.json";
+    const ProcessResult result = run_tarn({"flythrough", "--path", path, "--size", "64x36", "--frames", "9",
+                                           "--measured", "9", "--reference-spp", "256", "--methods",
+                                           "ris:samples=16,restir-unbiased", "--out", folder_.file("out")});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const Json all = results();
+    for (const Json& method : all["flythroughs"][0]["methods"]) {
+        ASSERT_EQ(method["errors"].size(), 9u);
+        for (const Json& error : method["errors"]) {
+            EXPECT_NEAR(error["mean_ratio"].get<double>(), 1.0, 0.1) << method["label"] << error.dump();
+            EXPECT_LT(error["rel_mse_trimmed"].get<double>(), 0.1) << method["label"] << error.dump();
+        }
+    }
+}
+
 TEST_F(BenchCommand, AStoppedFlightGoesOnToTheSameFrames) {
     const Arguments arguments = {tarn_program(),    "flythrough", "--methods",  "ris,restir-fast",
                                  "--size",          "64x36",      "--frames",   "120",

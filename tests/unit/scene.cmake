@@ -6,3 +6,4 @@ tarn_test(gltf_nodes LABEL unit LIBRARIES tarn_scene nlohmann_json::nlohmann_jso
 tarn_test(tangents LABEL unit LIBRARIES tarn_scene nlohmann_json::nlohmann_json)
 tarn_test(pose LABEL unit LIBRARIES tarn_scene nlohmann_json::nlohmann_json)
 tarn_test(live_pose LABEL unit LIBRARIES tarn_scene)
+tarn_test(camera_path LABEL unit LIBRARIES tarn_scene nlohmann_json::nlohmann_json)

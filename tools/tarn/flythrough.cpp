@@ -10,6 +10,7 @@
 #include "flythrough_results.h"
 #include "flythrough_run.h"
 #include "gl/shader_source.h"
+#include "scene/node_tracks.h"
 
 namespace tarn {
 namespace {
@@ -32,6 +33,20 @@ std::string word_of_direct(const RenderSettings& settings) {
     return find_setting("direct").format(settings);
 }
 
+nlohmann::json describe_point(const std::optional<glm::dvec3>& point) {
+    if (!point) return nullptr;
+    return {point->x, point->y, point->z};
+}
+
+nlohmann::json describe_track(const NodeTrack& track) {
+    nlohmann::json json = {{"node", track.node}};
+    for (const NodeKey& key : track.keys) {
+        json["keys"].push_back(
+            {key.time_s, describe_point(key.position_ns), describe_point(key.rotation_deg)});
+    }
+    return json;
+}
+
 // Everything that decides what a flight comes to.
 nlohmann::json describe_key(const FlythroughCommand& command, const CameraPath& path,
                             RenderSession& session) {
@@ -50,6 +65,7 @@ nlohmann::json describe_key(const FlythroughCommand& command, const CameraPath& 
         key["path"].push_back({k.time_s, k.position_ws.x, k.position_ws.y, k.position_ws.z, k.target_ws.x,
                                k.target_ws.y, k.target_ws.z, k.vertical_fov_deg});
     }
+    for (const NodeTrack& track : path.tracks) key["tracks"].push_back(describe_track(track));
     return key;
 }
 
@@ -100,7 +116,7 @@ void run_flythrough(FlythroughCommand& command) {
     }
     check_output_folder(command.options.json_file);
     create_folder(command.out);
-    RenderSession session(command.options);
+    RenderSession session(command.options, [&](Scene& scene) { add_tracks(scene, path.tracks); });
     const std::filesystem::path out = command.out;
     const WorkFolder work(out / "unfinished", describe_key(command, path, session));
     std::vector<std::unique_ptr<Renderer>> renderers;
@@ -136,8 +152,9 @@ void add_flythrough_command(CLI::App& app) {
     // The path says where from and when.
     sub->remove_option(sub->get_option("--camera"));
     sub->remove_option(sub->get_option("--time"));
-    sub->add_option("--path", command->path_file,
-                    "Camera path, a JSON file (default: through lantern_court)");
+    sub->add_option(
+        "--path", command->path_file,
+        "Path of the camera, of lights and objects, a JSON file (default: through lantern_court)");
     sub->add_option("--out", command->out, "Folder for the pictures and report.json")->capture_default_str();
     sub->add_option(
         "--methods", command->methods,

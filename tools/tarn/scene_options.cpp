@@ -134,9 +134,10 @@ std::filesystem::path resolve_scene_path(const std::filesystem::path& scene) {
     return std::filesystem::exists(own) ? own : scene;
 }
 
-LoadedScene load_scene(const SceneOptions& options) {
+LoadedScene load_scene(const SceneOptions& options, const SceneEdit& edit) {
     LoadedScene loaded;
     loaded.scene = load_gltf(resolve_scene_path(options.scene), GltfOptions{options.scene_index});
+    if (edit) edit(loaded.scene);
     WorldOptions world_options;
     world_options.time_s = options.time_s;
     if (options.sky) world_options.environment = make_even_sky(*options.sky);

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -43,9 +44,12 @@ struct LoadedScene {
     World world;
 };
 
+// Changes a scene after it was read and before anything is made of it.
+using SceneEdit = std::function<void(Scene&)>;
+
 // Loads the scene and flattens it, with the environment map if there is one. Throws Error naming what is
 // wrong.
-LoadedScene load_scene(const SceneOptions& options);
+LoadedScene load_scene(const SceneOptions& options, const SceneEdit& edit = {});
 
 // The camera that `options.camera` means: a name, an index, or x,y,z,tx,ty,tz,fov_deg. Throws Error listing
 // the scene's cameras where there is no such one.

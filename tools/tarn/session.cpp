@@ -93,8 +93,10 @@ ContextOptions make_context_options(const RenderOptions& options) {
     return result;
 }
 
-RenderSession::RenderSession(const RenderOptions& options)
-    : workers_(options.scene.threads), loaded_(load_scene(options.scene)), threads_(options.scene.threads) {
+RenderSession::RenderSession(const RenderOptions& options, const SceneEdit& edit)
+    : workers_(options.scene.threads),
+      loaded_(load_scene(options.scene, edit)),
+      threads_(options.scene.threads) {
     context_ = create_context(make_context_options(options));
     tracer_ = create_embree_tracer(loaded_.world);
     renderer_ =

@@ -29,7 +29,7 @@ ContextOptions make_context_options(const RenderOptions& options);
 
 class RenderSession {
   public:
-    explicit RenderSession(const RenderOptions& options);
+    explicit RenderSession(const RenderOptions& options, const SceneEdit& edit = {});
 
     // Moves scene, rays and buffers to `time_s`.
     void move_to(double time_s);
