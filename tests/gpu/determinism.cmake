@@ -1,5 +1,5 @@
 # The same seed gives the same bits, whatever the context and the threads. A window gets a display of its own.
-tarn_test(determinism GL LABEL gpu LIBRARIES tarn_image_io tarn_rays tarn_world tarn_scene nlohmann_json::nlohmann_json fmt::fmt)
+tarn_test(determinism LABEL gpu LIBRARIES tarn_image_io tarn_rays tarn_world tarn_scene nlohmann_json::nlohmann_json fmt::fmt)
 if(XVFB_RUN)
   target_compile_definitions(test_determinism PRIVATE TARN_XVFB_RUN="${XVFB_RUN}")
 else()

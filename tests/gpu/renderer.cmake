@@ -1,2 +1,2 @@
-tarn_test(raster_against_rays GL LABEL gpu TIMEOUT 600
+tarn_test(raster_against_rays LABEL gpu TIMEOUT 600
           LIBRARIES tarn_renderer tarn_platform tarn_rays tarn_world tarn_core)

@@ -1,5 +1,5 @@
 # What the window shows: the display pass, and the viewer in a real window with real events.
-tarn_test(display_pass GL LABEL gpu LIBRARIES tarn_passes tarn_platform)
+tarn_test(display_pass LABEL gpu LIBRARIES tarn_passes tarn_platform)
 
 find_program(XDOTOOL xdotool)
 find_program(IMPORT import)

@@ -1,0 +1,130 @@
+// What reuse does to numbers over many frames: lights of extreme intensity in the history, a history that
+// went bad, samples that never die.
+#include <gtest/gtest.h>
+
+#include "platform/context.h"
+#include "support/toy_render.h"
+
+namespace tarn::test {
+namespace {
+
+constexpr int WIDTH_PX = 72;
+constexpr int HEIGHT_PX = 48;
+
+class RestirHazards : public testing::Test {
+  protected:
+    static void SetUpTestSuite() { context_ = create_context({}); }
+    static void TearDownTestSuite() { context_.reset(); }
+
+    static inline std::unique_ptr<Context> context_;
+};
+
+// A floor with a wall on it and a lamp over it.
+ToyScene make_lamp_stage(float intensity) {
+    ToyScene toy;
+    toy.add_quad(toy.add_material(lambert_material(glm::vec3(0.5f))), {-4, 0, 4}, {8, 0, 0}, {0, 0, -8});
+    toy.add_quad(toy.add_material(lambert_material(glm::vec3(0.7f, 0.4f, 0.3f))), {-0.5f, 0, 0.5f}, {1, 0, 0},
+                 {0, 1, 0});
+    const glm::vec3 radiance = glm::vec3(3.0f, 2.0f, 1.0f) * intensity;
+    toy.add_quad(toy.add_material(emissive_material(radiance)), {-1, 2.5f, -1}, {1, 0, 0}, {0, 0, 1});
+    return toy;
+}
+
+// And a point light beside it.
+Scene make_stage(float intensity) {
+    ToyScene toy = make_lamp_stage(intensity);
+    PunctualLight point;
+    point.intensity = glm::vec3(intensity);
+    toy.add_light(point, glm::translate(glm::dmat4(1.0), glm::dvec3(1.5, 1.0, 1.0)));
+    return toy.scene;
+}
+
+CameraRecord look_at_stage(const ToyRender& render) {
+    return render.look({0.0, 3.0, 4.0}, {0.0, 0.0, 0.0}, 50.0);
+}
+
+// Light is linear in intensity, and so is all that reservoirs carry from frame to frame: a power of two comes
+// out as it went in, bit for bit, unless a floor or an epsilon stands in its way (hazards of weights that
+// under- or overflow). 2^-27 is 7.5e-9, 2^27 is 1.3e8.
+TEST_F(RestirHazards, HistoriesAreLinearInIntensityOverSixteenDecades) {
+    constexpr int FRAMES = 8;
+    for (const Preset& preset : preset_table()) {
+        const auto picture = [&](float intensity) {
+            ToyRender render(make_stage(intensity), WIDTH_PX, HEIGHT_PX);
+            render.settings = preset.settings;
+            return render.render(look_at_stage(render), DirectMode::RESTIR, FRAMES);
+        };
+        const Image one = picture(1.0f);
+        EXPECT_GT(mean_of(one), 0.01);
+        for (const float intensity : {0x1p-27f, 0x1p27f}) {
+            const Image other = picture(intensity);
+            std::size_t different = 0;
+            for (std::size_t i = 0; i < one.values.size(); ++i)
+                different += other.values[i] != one.values[i] * intensity;
+            EXPECT_EQ(different, 0u) << preset.name << " " << intensity;
+        }
+    }
+}
+
+// A history that holds NaN, however it came there, is dropped where it is read, counted, and gone.
+TEST_F(RestirHazards, AHistoryThatIsNoNumberIsDroppedAndCounted) {
+    constexpr int FRAMES = 12;
+    World world = build_world(make_stage(1.0f));
+    const auto tracer = create_embree_tracer(world);
+    const auto run = [&](const std::vector<std::string>& planted, std::uint64_t& bad) {
+        Renderer renderer(world, *tracer, WIDTH_PX, HEIGHT_PX, planted);
+        FrameInput input;
+        input.camera = look_at(world, {0.0, 3.0, 4.0}, {0.0, 0.0, 0.0}, 50.0, double(WIDTH_PX) / HEIGHT_PX);
+        input.settings = find_preset("unbiased").settings;
+        double sum = 0.0;
+        for (int frame = 0; frame < FRAMES; ++frame) {
+            input.frame = std::uint32_t(frame);
+            const Image image = renderer.read_radiance(renderer.render(input).radiance);
+            for (const float value : image.values) EXPECT_TRUE(std::isfinite(value));
+            sum += mean_of(image);
+        }
+        bad = renderer.read_counters().at("bad_history");
+        return sum / FRAMES;
+    };
+    std::uint64_t healthy_count = 0, planted_count = 0;
+    const double healthy = run({}, healthy_count);
+    const double planted = run({"TARN_PLANT_NAN_HISTORY"}, planted_count);
+    EXPECT_EQ(healthy_count, 0u);
+    EXPECT_GT(planted_count, std::uint64_t(WIDTH_PX * HEIGHT_PX / 16));
+    EXPECT_NEAR(planted, healthy, 0.05 * healthy);
+}
+
+// Share of pixels that show the same sample in two frames so far apart.
+double share_of_kept_samples(int age_cap, int frames_apart) {
+    constexpr int WARM_UP = 24;
+    ToyRender render(make_lamp_stage(1.0f).scene, WIDTH_PX, HEIGHT_PX);
+    render.settings.reuse = Reuse::TEMPORAL;
+    render.settings.confidence_cap = 1000.0;
+    render.settings.age_cap = age_cap;
+    render.settings.debug_view = DebugView::SAMPLES;
+    const CameraRecord camera = look_at_stage(render);
+    render.render(camera, DirectMode::RESTIR, WARM_UP);
+    const Image before = render.render(camera, DirectMode::RESTIR, 1, WARM_UP);
+    render.render(camera, DirectMode::RESTIR, frames_apart - 1, WARM_UP + 1);
+    const Image after = render.render(camera, DirectMode::RESTIR, 1, WARM_UP + frames_apart);
+    std::size_t kept = 0, shown = 0;
+    for (int y = 0; y < HEIGHT_PX; ++y) {
+        for (int x = 0; x < WIDTH_PX; ++x) {
+            const float *a = before.pixel(x, y), *b = after.pixel(x, y);
+            if (a[0] == 0.0f) continue;
+            kept += std::equal(a, a + 3, b);
+            ++shown;
+        }
+    }
+    return double(kept) / double(shown);
+}
+
+// Places on a lamp never repeat: who shows the same one again has kept it.
+TEST_F(RestirHazards, SamplesOlderThanTheCapAreGone) {
+    EXPECT_EQ(share_of_kept_samples(6, 8), 0.0);
+    EXPECT_GT(share_of_kept_samples(6, 2), 0.3);
+    EXPECT_GT(share_of_kept_samples(0, 8), 0.3);
+}
+
+}  // namespace
+}  // namespace tarn::test
