@@ -5,16 +5,12 @@
 namespace tarn {
 namespace {
 
-const float* texel(const Image& image, int x, int y) {
-    return &image.values[std::size_t(image.channels) * (std::size_t(y) * image.width + x)];
-}
-
 bool is_shared(const Image& samples, int x, int y) {
-    const float* own = texel(samples, x, y);
+    const float* own = samples.pixel(x, y);
     for (int v = std::max(0, y - 1); v <= std::min(samples.height - 1, y + 1); ++v) {
         for (int u = std::max(0, x - 1); u <= std::min(samples.width - 1, x + 1); ++u) {
             const bool is_self = u == x && v == y;
-            if (!is_self && std::equal(own, own + samples.channels, texel(samples, u, v))) return true;
+            if (!is_self && std::equal(own, own + samples.channels, samples.pixel(u, v))) return true;
         }
     }
     return false;
@@ -26,7 +22,7 @@ double find_shared_sample_share(const Image& samples) {
     std::size_t shared = 0, lit = 0;
     for (int y = 0; y < samples.height; ++y) {
         for (int x = 0; x < samples.width; ++x) {
-            const float* own = texel(samples, x, y);
+            const float* own = samples.pixel(x, y);
             if (std::all_of(own, own + samples.channels, [](float v) { return v == 0.0f; })) continue;
             shared += is_shared(samples, x, y);
             ++lit;

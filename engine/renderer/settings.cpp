@@ -177,7 +177,7 @@ const std::vector<Setting>& setting_table() {
 
 namespace {
 
-// Near neighbours are of one mind about a sample; without feedback they do not come to share it.
+// Near neighbours are of one mind about a sample. Without feedback less of their bias comes back each frame.
 constexpr double PRESET_RADIUS_PX = 16.0;
 
 RenderSettings fast_settings() {

@@ -65,7 +65,7 @@ float past_likeness(Look expected, ivec2 pixel) {
 // The pixel of the last frame that showed this surface, or of the eight around it the one whose normal is most like this
 // one's. A surface never falls on the same pixel centres twice, and where a normal map is finer than pixels the nearest
 // one may look another way: its history would estimate another integral, and 20 frames of that add up. Surfaces alone
-// decide, so this adds no bias.
+// decide, so this adds no bias; but neighbours may find the same past and share its sample.
 bool find_past_pixel(ivec2 pixel, Receiver here, out ivec2 found) {
     Look expected = look_of(here.point);
     expected.position = previous_position(pixel);
