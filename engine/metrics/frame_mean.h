@@ -7,16 +7,20 @@
 
 namespace tarn {
 
-// The mean of frames that come one by one; summed in double, so that a thousand of them lose nothing.
+// The mean of frames that come one by one, all of one shape; summed in double, so that a thousand of them
+// lose nothing.
 class FrameMean {
   public:
     void add(const Image& frame);
-    // Of at least one frame.
+    // Adds all frames of `other`.
+    void merge(const FrameMean& other);
+    int frames() const { return frames_; }
+    // An empty image where there is no frame.
     Image mean() const;
 
   private:
-    Image latest_;  // for the shape
-    std::vector<double> sum_;
+    int width_ = 0, height_ = 0, channels_ = 0;
+    std::vector<double> sum_;  // as Image::values
     int frames_ = 0;
 };
 

@@ -25,6 +25,13 @@ bool is_similar(Look expected, Look found, float depth) {
            abs(expected.alpha - found.alpha) <= MAX_ALPHA_DIFFERENCE;
 }
 
+// Whether either surface is a mirror to its neighbours: its lobe is narrower than the angle by which lights move from one
+// pixel to the next, so that what lights the one is next to impossible for the other to draw, and yet not impossible.
+bool is_mirror_like(Look a, Look b) {
+    const float MAX_MIRROR_ALPHA = 0.01f;  // a roughness of 0.1
+    return min(a.alpha, b.alpha) <= MAX_MIRROR_ALPHA;
+}
+
 Look look_of(ShadingPoint point) {
     return Look(point.position, point.geometric_normal, point.shading_normal, point.material.alpha);
 }

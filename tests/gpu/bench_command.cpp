@@ -1,4 +1,4 @@
-// `tarn bench` and `tarn flythrough` on the renderer: what they promise, and what they do when they are
+// `tarn bench` on the renderer: what they promise, and what they do when they are
 // killed or cannot write.
 #include <gtest/gtest.h>
 
@@ -134,56 +134,6 @@ TEST_F(BenchCommand, WrongWordsAreOneLine) {
         EXPECT_EQ(result.error_lines(), 1) << result.err;
     }
     EXPECT_EQ(run_tarn({"bench", "--frames", "5"}).status, 2);
-}
-
-// A lamp and a block move along with the camera, and the reference with them: were one of the two to lag,
-// light and shadows would lie elsewhere.
-TEST_F(BenchCommand, LightsAndObjectsOfAPathMove) {
-    const std::string path = TARN_SOURCE_DIR "/content/flythroughs/cornell.json";
-    const ProcessResult result = run_tarn({"flythrough", "--path", path, "--size", "64x36", "--frames", "9",
-                                           "--measured", "9", "--reference-spp", "256", "--methods",
-                                           "ris:samples=16,restir-unbiased", "--out", folder_.file("out")});
-    ASSERT_EQ(result.status, 0) << result.err;
-    const Json all = results();
-    for (const Json& method : all["flythroughs"][0]["methods"]) {
-        ASSERT_EQ(method["errors"].size(), 9u);
-        for (const Json& error : method["errors"]) {
-            EXPECT_NEAR(error["mean_ratio"].get<double>(), 1.0, 0.1) << method["label"] << error.dump();
-            EXPECT_LT(error["rel_mse_trimmed"].get<double>(), 0.1) << method["label"] << error.dump();
-        }
-    }
-}
-
-TEST_F(BenchCommand, AStoppedFlightGoesOnToTheSameFrames) {
-    const Arguments arguments = {tarn_program(),    "flythrough", "--methods",  "ris,restir-fast",
-                                 "--size",          "64x36",      "--frames",   "120",
-                                 "--pictures",      "0",          "--measured", "2",
-                                 "--reference-spp", "4",          "--exposure", "0"};
-    const auto fly_to = [&](const std::string& out) {
-        Arguments all = arguments;
-        all.insert(all.end(), {"--out", folder_.file(out)});
-        return all;
-    };
-    {
-        Process process(fly_to("broken"));
-        ASSERT_TRUE(process.wait_until(
-            [&] { return std::filesystem::exists(folder_.path() / "broken/unfinished/frame000040.cbor"); },
-            std::chrono::seconds(200)));
-        process.send(SIGINT);
-        EXPECT_EQ(process.finish().status, 0);
-    }
-    const auto load = [&](const std::string& out) {
-        return Json::parse(read_text(folder_.path() / out / "results.json"))["flythroughs"][0];
-    };
-    EXPECT_EQ(load("broken")["interrupted"], true);
-    ASSERT_EQ(run_process(fly_to("broken")).status, 0);
-    ASSERT_EQ(run_process(fly_to("whole")).status, 0);
-    const Json broken = load("broken"), whole = load("whole");
-    EXPECT_EQ(broken["frames"], 120);
-    EXPECT_EQ(broken["interrupted"], false);
-    // Without history the same bits; with it, what is left of the past before the stop is nearly gone.
-    EXPECT_EQ(broken["methods"][0]["errors"], whole["methods"][0]["errors"]);
-    ASSERT_EQ(broken["methods"][1]["errors"].size(), 2u);
 }
 
 }  // namespace

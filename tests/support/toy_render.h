@@ -108,4 +108,11 @@ inline double mean_of(const Image& image) {
     return sum / double(image.values.size());
 }
 
+// How many values of `image` are not those of `one` times `scale`, to the bit.
+inline std::size_t count_off_scale(const Image& one, const Image& image, float scale) {
+    std::size_t off = 0;
+    for (std::size_t i = 0; i < one.values.size(); ++i) off += image.values[i] != one.values[i] * scale;
+    return off;
+}
+
 }  // namespace tarn::test

@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "bench/curve_results.h"
+#include "bench/error_results.h"
 #include "bench/file_names.h"
 #include "core/display.h"
 #include "core/error.h"
 #include "core/statistics.h"
 #include "image_io/image_io.h"
-#include "metrics/bias_variance.h"
 #include "metrics/flip.h"
 #include "metrics/heat_map.h"
 #include "metrics/seed_statistics.h"
@@ -33,11 +33,6 @@ double total_ms(const SequenceMeasure& measure) {
     return sum;
 }
 
-Json describe_values(const std::vector<double>& values) {
-    const Estimate estimate = estimate_mean(values);
-    return {{"mean", estimate.mean}, {"low", estimate.low}, {"high", estimate.high}, {"per_seed", values}};
-}
-
 template <class Get>
 std::vector<double> collect(const CellView& view, const Get& get) {
     std::vector<double> values;
@@ -49,70 +44,11 @@ bool is_first(const CellView& view) {
     return std::string_view(view.kind) == "first";
 }
 
-Json describe_errors(const CellView& view) {
-    Json errors;
-    const auto add = [&](const char* name, auto get) {
-        errors[name] = describe_values(collect(view, [&](const SequenceMeasure& measure) {
-            return double(get(is_first(view) ? measure.first : measure.mean));
-        }));
-    };
-    add("mse", [](const PictureErrors& e) { return e.linear.mse; });
-    add("rel_mse", [](const PictureErrors& e) { return e.linear.rel_mse; });
-    add("rel_mse_trimmed", [](const PictureErrors& e) { return e.linear.rel_mse_trimmed; });
-    add("rmspe", [](const PictureErrors& e) { return e.linear.rmspe; });
-    add("mape", [](const PictureErrors& e) { return e.linear.mape; });
-    add("mean_ratio", [](const PictureErrors& e) { return e.linear.mean_ratio; });
-    add("flip_ldr", [](const PictureErrors& e) { return e.flip_ldr; });
+std::vector<PictureErrors> picture_errors(const CellView& view) {
+    std::vector<PictureErrors> errors;
+    for (const SequenceMeasure& measure : view.measures)
+        errors.push_back(is_first(view) ? measure.first : measure.mean);
     return errors;
-}
-
-// Half of the 95 % interval that the reference's own noise adds to bias squared, as if it were normal: the
-// square of a pixel's error varies by twice its variance squared.
-double find_reference_reach(const Image& variance) {
-    double sum = 0.0, pixels = 0.0;
-    for (std::size_t i = 0; i < variance.pixel_count(); ++i) {
-        const double pixel =
-            (double(variance.values[3 * i]) + variance.values[3 * i + 1] + variance.values[3 * i + 2]) / 3.0;
-        if (!std::isfinite(pixel)) continue;
-        sum += 2.0 * pixel * pixel;
-        pixels += 1.0;
-    }
-    return pixels > 0.0 ? 1.96 * std::sqrt(sum) / pixels : 0.0;
-}
-
-// The split of `pictures` against a reference whose mean has `variance`, errors times `scale`.
-Json describe_split(const Image& reference, const Image& variance, const std::vector<Image>& pictures,
-                    double scale) {
-    const BiasVariance split = split_bias_variance(reference, pictures, mean_finite_value(variance));
-    const double reference_reach = find_reference_reach(variance);
-    const double reach = std::hypot(split.bias_squared_high - split.bias_squared, reference_reach);
-    return {{"bias_squared", scale * split.bias_squared},
-            {"low", scale * (split.bias_squared - reach)},
-            {"high", scale * (split.bias_squared + reach)},
-            {"variance", scale * split.variance},
-            {"mse_of_mean", scale * split.mse_of_mean},
-            {"neighbour_autocorrelation", split.neighbour_autocorrelation}};
-}
-
-Json describe_bias(const CellView& view, const Truth& truth) {
-    return describe_split(truth.radiance, truth.variance, view.pictures,
-                          std::exp2(2.0 * double(truth.exposure_ev)));
-}
-
-// The split of relMSE: each value over the root of relMSE's divisor.
-Json describe_relative_bias(const CellView& view, const Truth& truth) {
-    const double scale = std::exp2(double(truth.exposure_ev));
-    std::vector<float> weights;
-    for (const float value : truth.radiance.values) {
-        weights.push_back(float(scale / std::sqrt(scale * scale * double(value) * value + REL_MSE_EPSILON)));
-    }
-    const auto weigh = [&](Image image) {
-        for (std::size_t i = 0; i < weights.size(); ++i) image.values[i] *= weights[i];
-        return image;
-    };
-    std::vector<Image> pictures;
-    for (const Image& picture : view.pictures) pictures.push_back(weigh(picture));
-    return describe_split(weigh(truth.radiance), weigh(weigh(truth.variance)), pictures, 1.0);
 }
 
 // Median and p95 over all frames, and the median of each seed.
@@ -179,9 +115,9 @@ Json describe_view(const BenchPlan& plan, const CellView& view, const Truth& tru
     json["resolution"] = cell.fit.resolution;
     json["settings"] = describe_settings(cell.fit.settings);
     json["ms"] = {{"median", quantile(ms, 0.5)}, {"p95", quantile(ms, 0.95)}, {"per_seed", ms}};
-    json["errors"] = describe_errors(view);
-    json["bias"] = describe_bias(view, truth);
-    json["relative_bias"] = describe_relative_bias(view, truth);
+    json["errors"] = describe_errors(picture_errors(view), truth);
+    json["bias"] = describe_bias(view.pictures, truth);
+    json["relative_bias"] = describe_relative_bias(view.pictures, truth);
     json["flicker"] = describe_values(collect(view, [](const SequenceMeasure& m) { return m.flicker; }));
     if (cell.budget < 0) {
         json["shared_samples"] =

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/statistics.h"
 #include "metrics/flip.h"
+#include "metrics/frame_mean.h"
 #include "metrics/shared_samples.h"
 
 namespace tarn {
@@ -17,41 +18,25 @@ double linear_scale(const Truth& truth) {
     return std::exp2(double(truth.exposure_ev));
 }
 
-// Sum of frames in double, so that a thousand of them lose nothing.
-struct FrameSum {
-    std::vector<double> values;
-    int frames = 0;
-
-    void add(const FrameSum& other) {
-        if (values.empty()) values.assign(other.values.size(), 0.0);
-        for (std::size_t i = 0; i < values.size(); ++i) values[i] += other.values[i];
-        frames += other.frames;
-    }
-    Image mean(const Image& like) const {
-        Image image(like.width, like.height, like.channels);
-        for (std::size_t i = 0; i < values.size(); ++i) image.values[i] = float(values[i] / frames);
-        return image;
-    }
-};
-
-// The errors of the means of 1, 2, 4, ... frames. Sums wait until their twin comes, as the bits of a counter.
+// The errors of the means of 1, 2, 4, ... frames. Means wait until their twin comes, as the bits of a
+// counter.
 class CurveMeter {
   public:
     explicit CurveMeter(const Truth& truth) : truth_(truth) {}
 
-    void add(FrameSum sum) {
+    void add(FrameMean mean) {
         for (std::size_t level = 0;; ++level) {
             if (level == waiting_.size()) {
                 waiting_.emplace_back();
-                points_.push_back({sum.frames, 0.0, 0.0, 0.0});
+                points_.push_back({mean.frames(), 0.0, 0.0, 0.0});
                 counts_.push_back(0);
             }
-            measure(level, sum);
-            if (waiting_[level].frames == 0) {
-                waiting_[level] = std::move(sum);
+            measure(level, mean.mean());
+            if (waiting_[level].frames() == 0) {
+                waiting_[level] = std::move(mean);
                 return;
             }
-            sum.add(waiting_[level]);
+            mean.merge(waiting_[level]);
             waiting_[level] = {};
         }
     }
@@ -67,9 +52,8 @@ class CurveMeter {
     }
 
   private:
-    void measure(std::size_t level, const FrameSum& sum) {
-        const ImageErrors errors =
-            compute_image_errors(truth_.radiance, sum.mean(truth_.radiance), linear_scale(truth_));
+    void measure(std::size_t level, const Image& picture) {
+        const ImageErrors errors = compute_image_errors(truth_.radiance, picture, linear_scale(truth_));
         points_[level].mse += errors.mse;
         points_[level].rel_mse += errors.rel_mse;
         points_[level].rel_mse_trimmed += errors.rel_mse_trimmed;
@@ -77,7 +61,7 @@ class CurveMeter {
     }
 
     const Truth& truth_;
-    std::vector<FrameSum> waiting_;
+    std::vector<FrameMean> waiting_;
     std::vector<CurvePoint> points_;
     std::vector<int> counts_;
 };
@@ -188,7 +172,7 @@ MeasuredSequence measure_sequence(FrameSource& source, const Truth& truth, const
     MeasuredSequence result;
     SequenceMeasure& measure = result.measure;
     CurveMeter curve(truth);
-    FrameSum total;
+    FrameMean total;
     Image before;
     double changes = 0.0;
     const auto counters_before = source.read_counters(request.method);
@@ -200,9 +184,10 @@ MeasuredSequence measure_sequence(FrameSource& source, const Truth& truth, const
             {request.method, request.settings, request.seed, number, starts, 0, request.resolution});
         add_timings(measure, frame.timings);
         measure.rays += frame.rays;
-        FrameSum sum{{frame.radiance.values.begin(), frame.radiance.values.end()}, 1};
-        total.add(sum);
-        if (request.with_curve) curve.add(std::move(sum));
+        FrameMean picture;
+        picture.add(frame.radiance);
+        total.merge(picture);
+        if (request.with_curve) curve.add(std::move(picture));
         if (i > 0) {
             changes += mean_absolute_change(before, frame.radiance);
             measure.repeated_frames += before.values == frame.radiance.values;
@@ -214,7 +199,7 @@ MeasuredSequence measure_sequence(FrameSource& source, const Truth& truth, const
     const double truth_mean = mean_finite_value(truth.radiance);
     if (request.frames > 1 && truth_mean > 0.0) measure.flicker = changes / (request.frames - 1) / truth_mean;
     measure.counters = count_since(counters_before, source.read_counters(request.method));
-    result.mean = total.mean(truth.radiance);
+    result.mean = total.mean();
     measure.first = measure_picture(truth, result.first);
     measure.mean = request.frames > 1 ? measure_picture(truth, result.mean) : measure.first;
     if (request.with_curve) {

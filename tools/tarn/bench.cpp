@@ -228,10 +228,9 @@ void add_bench_command(CLI::App& app) {
     command->options.scene.width = 320;
     command->options.scene.height = 180;
     command->methods = all_method_names();
-    add_render_options(*sub, command->options);
-    // Scenes may be several, and each method brings its own settings.
+    add_session_options(*sub, command->options);
+    // Scenes may be several.
     sub->remove_option(sub->get_option("SCENE"));
-    for (const Setting& setting : setting_table()) sub->remove_option(sub->get_option("--" + setting.name));
     sub->add_option("SCENE", command->scenes, "glTF files or generated scenes")->capture_default_str();
     sub->add_option("--methods", command->methods,
                     "Methods to compare: NAME[:setting=value[,setting=value]], separated by commas")

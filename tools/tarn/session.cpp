@@ -1,5 +1,7 @@
 #include "session.h"
 
+#include <fmt/ranges.h>
+
 #include <fstream>
 #include <thread>
 
@@ -50,31 +52,29 @@ void add_preset_option(CLI::App& command, RenderOptions& options) {
     command.add_option_function<std::string>("--preset", apply, sentence + "]");
 }
 
+std::string describe_choices(const Setting& setting) {
+    if (setting.choices.empty()) return fmt::format(" [{} to {}]", setting.minimum, setting.maximum);
+    return fmt::format(" [{}]", fmt::join(setting.choices, ", "));
+}
+
+void add_setting_option(CLI::App& command, RenderOptions& options, const Setting& setting) {
+    const auto parse = [&options, &setting](const std::string& text) {
+        try {
+            setting.parse(options.settings, text);
+        } catch (const Error& error) {
+            throw CLI::ValidationError(error.what());
+        }
+    };
+    command
+        .add_option_function<std::string>("--" + setting.name, parse,
+                                          setting.sentence + describe_choices(setting))
+        ->default_str(setting.format(options.settings));
+}
+
 }  // namespace
 
-void add_render_options(CLI::App& command, RenderOptions& options) {
+void add_session_options(CLI::App& command, RenderOptions& options) {
     add_scene_options(command, options.scene);
-    add_preset_option(command, options);
-    for (const Setting& setting : setting_table()) {
-        std::string sentence = setting.sentence;
-        if (setting.choices.empty()) {
-            sentence += fmt::format(" [{} to {}]", setting.minimum, setting.maximum);
-        } else {
-            for (std::size_t i = 0; i < setting.choices.size(); ++i) {
-                sentence += (i == 0 ? " [" : ", ") + setting.choices[i];
-            }
-            sentence += "]";
-        }
-        const auto parse = [&options, &setting](const std::string& text) {
-            try {
-                setting.parse(options.settings, text);
-            } catch (const Error& error) {
-                throw CLI::ValidationError(error.what());
-            }
-        };
-        command.add_option_function<std::string>("--" + setting.name, parse, sentence)
-            ->default_str(setting.format(options.settings));
-    }
     command.add_option("--context", options.context, "Where GL comes from [egl, glfw, osmesa]")
         ->check(CLI::IsMember({"egl", "glfw", "osmesa"}))
         ->capture_default_str();
@@ -82,6 +82,12 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
         .add_option("--exposure", options.exposure_ev, "Exposure of PNG pictures, EV (default: automatic)")
         ->check(make_finite_range(MIN_EXPOSURE_EV, MAX_EXPOSURE_EV));
     command.add_option("--json", options.json_file, "Write timings, counters and settings to this file");
+}
+
+void add_render_options(CLI::App& command, RenderOptions& options) {
+    add_session_options(command, options);
+    add_preset_option(command, options);
+    for (const Setting& setting : setting_table()) add_setting_option(command, options, setting);
 }
 
 ContextOptions make_context_options(const RenderOptions& options) {

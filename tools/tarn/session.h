@@ -21,7 +21,11 @@ struct RenderOptions {
     std::string json_file;
 };
 
-// Adds --context, --exposure, --json and an option for each row of the settings table.
+// Adds the options of the scene, --context, --exposure and --json: for commands whose methods bring their own
+// settings.
+void add_session_options(CLI::App& command, RenderOptions& options);
+
+// Adds those, --preset and an option for each row of the settings table.
 void add_render_options(CLI::App& command, RenderOptions& options);
 
 // The context that the options ask for.

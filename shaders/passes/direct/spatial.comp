@@ -59,8 +59,11 @@ bool can_join(Receiver here, ivec2 pixel, ivec2 neighbour) {
     if (neighbour == pixel) return false;
     vec4 position = load_layer(neighbour, LAYER_POSITION);
     Look look = look_of_layers(position, load_layer(neighbour, LAYER_NORMALS), load_layer(neighbour, LAYER_DIFFUSE));
-    return position.w >= 0.0f &&
-           is_similar(look, look_of(here.point), view_depth(frame_camera(), here.point.position));
+    Look own = look_of(here.point);
+    // 1/Z gives all who could have made a sample the same share of it, however rarely they do: a mirror's energy would
+    // hang on samples that no run meets. Balance and pairwise know how likely each is.
+    if (MIS == MIS_COUNT && is_mirror_like(look, own)) return false;
+    return position.w >= 0.0f && is_similar(look, own, view_depth(frame_camera(), here.point.position));
 }
 
 Gathering gather(ivec2 pixel, Receiver here) {

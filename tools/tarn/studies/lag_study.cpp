@@ -168,10 +168,8 @@ void add_lag_study(CLI::App& app) {
     study->options.scene.scene = "lantern_court";
     study->options.scene.width = 160;
     study->options.scene.height = 90;
-    add_render_options(*sub, study->options);
+    add_session_options(*sub, study->options);
     sub->get_option("SCENE")->required(false);
-    for (const Setting& setting : setting_table()) sub->remove_option(sub->get_option("--" + setting.name));
-    sub->remove_option(sub->get_option("--preset"));
     sub->add_option("--methods", study->methods, "Methods, as bench names them")->capture_default_str();
     sub->add_option("--seeds", study->seeds, "Independent seeds")
         ->check(CLI::Range(1, 1000))

@@ -1,0 +1,147 @@
+// `tarn flythrough` on the renderer: what moves along the path, a flight that was stopped, and its video.
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "support/process.h"
+
+namespace tarn::test {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Arguments = std::vector<std::string>;
+
+// Of content/flythroughs/lantern_court.json, the default.
+constexpr double PATH_DURATION_S = 10.0;
+
+class FlythroughCommand : public testing::Test {
+  protected:
+    void SetUp() override { setenv("TARN_CACHE_DIR", folder_.file("cache").c_str(), 1); }
+    void TearDown() override { unsetenv("TARN_CACHE_DIR"); }
+
+    Json results() const { return Json::parse(read_text(folder_.path() / "out" / "results.json")); }
+
+    // A script of this name goes before all other programs.
+    void put_first_on_path(const std::string& name, const std::string& script) {
+        const std::filesystem::path bin = folder_.path() / "bin", file = bin / name;
+        std::filesystem::create_directories(bin);
+        std::ofstream(file) << "#!/bin/sh\n" << script << "\n";
+        std::filesystem::permissions(file, std::filesystem::perms::owner_all);
+    }
+
+    // A short flight with `pictures` pictures, which finds programs in the folder above first.
+    ProcessResult fly(int pictures) const {
+        return run_process({"env", "PATH=" + folder_.file("bin") + ":" + std::getenv("PATH"), tarn_program(),
+                            "flythrough", "--methods", "ris", "--size", "65x37", "--frames", "12",
+                            "--pictures", std::to_string(pictures), "--measured", "0", "--exposure", "0",
+                            "--out", folder_.file("out")});
+    }
+    std::filesystem::path video() const { return folder_.path() / "out" / "flythrough.mp4"; }
+
+    TemporaryFolder folder_;
+};
+
+// A lamp and a block move along with the camera, and the reference with them: were one of the two to lag,
+// light and shadows would lie elsewhere.
+TEST_F(FlythroughCommand, LightsAndObjectsOfAPathMove) {
+    const std::string path = TARN_SOURCE_DIR "/content/flythroughs/cornell.json";
+    const ProcessResult result = run_tarn({"flythrough", "--path", path, "--size", "64x36", "--frames", "9",
+                                           "--measured", "9", "--reference-spp", "256", "--methods",
+                                           "ris:samples=16,restir-unbiased", "--out", folder_.file("out")});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const Json all = results();
+    for (const Json& method : all["flythroughs"][0]["methods"]) {
+        ASSERT_EQ(method["errors"].size(), 9u);
+        for (const Json& error : method["errors"]) {
+            EXPECT_NEAR(error["mean_ratio"].get<double>(), 1.0, 0.1) << method["label"] << error.dump();
+            EXPECT_LT(error["rel_mse_trimmed"].get<double>(), 0.1) << method["label"] << error.dump();
+        }
+    }
+}
+
+TEST_F(FlythroughCommand, AStoppedFlightGoesOnToTheSameFrames) {
+    const Arguments arguments = {tarn_program(),    "flythrough", "--methods",  "ris,restir-fast",
+                                 "--size",          "64x36",      "--frames",   "120",
+                                 "--pictures",      "0",          "--measured", "2",
+                                 "--reference-spp", "4",          "--exposure", "0"};
+    const auto fly_to = [&](const std::string& out) {
+        Arguments all = arguments;
+        all.insert(all.end(), {"--out", folder_.file(out)});
+        return all;
+    };
+    {
+        Process process(fly_to("broken"));
+        ASSERT_TRUE(process.wait_until(
+            [&] { return std::filesystem::exists(folder_.path() / "broken/unfinished/frame000040.cbor"); },
+            std::chrono::seconds(200)));
+        process.send(SIGINT);
+        EXPECT_EQ(process.finish().status, 0);
+    }
+    const auto load = [&](const std::string& out) {
+        return Json::parse(read_text(folder_.path() / out / "results.json"))["flythroughs"][0];
+    };
+    EXPECT_EQ(load("broken")["interrupted"], true);
+    ASSERT_EQ(run_process(fly_to("broken")).status, 0);
+    ASSERT_EQ(run_process(fly_to("whole")).status, 0);
+    const Json broken = load("broken"), whole = load("whole");
+    EXPECT_EQ(broken["frames"], 120);
+    EXPECT_EQ(broken["interrupted"], false);
+    // Without history the same bits; with it, what is left of the past before the stop is nearly gone.
+    EXPECT_EQ(broken["methods"][0]["errors"], whole["methods"][0]["errors"]);
+    ASSERT_EQ(broken["methods"][1]["errors"].size(), 2u);
+}
+
+// What ffmpeg is given: pictures that are there, in the order of the flight, with times that add up to its
+// length.
+TEST_F(FlythroughCommand, AVideoIsMadeOfThePicturesInTheirOrder) {
+    put_first_on_path("ffmpeg", "cp video.txt flythrough.mp4");
+    const ProcessResult result = fly(12);
+    ASSERT_EQ(result.status, 0) << result.err;
+    std::ifstream list(video());
+    std::vector<std::string> pictures;
+    double duration_s = 0.0;
+    for (std::string word; list >> word;) {
+        std::string value;
+        list >> value;
+        if (word == "duration") duration_s += std::stod(value);
+        if (word == "file") pictures.push_back(value.substr(1, value.size() - 2));
+    }
+    ASSERT_EQ(pictures.size(), 12u);
+    EXPECT_TRUE(std::is_sorted(pictures.begin(), pictures.end()));
+    for (const std::string& picture : pictures)
+        EXPECT_TRUE(std::filesystem::exists(folder_.path() / "out" / picture)) << picture;
+    EXPECT_NEAR(duration_s, PATH_DURATION_S, 1e-3);
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out" / "video.txt"));
+}
+
+TEST_F(FlythroughCommand, AVideoThatFailsIsAWarning) {
+    put_first_on_path("ffmpeg", "exit 1");
+    const ProcessResult result = fly(12);
+    EXPECT_EQ(result.status, 0);
+    EXPECT_NE(result.err.find("flythrough.mp4: ffmpeg could not make it"), std::string::npos) << result.err;
+    EXPECT_EQ(results()["flythroughs"][0]["frames"], 12);
+}
+
+TEST_F(FlythroughCommand, FewPicturesAreNoVideo) {
+    put_first_on_path("ffmpeg", "cp video.txt flythrough.mp4");
+    EXPECT_EQ(fly(2).status, 0);
+    EXPECT_FALSE(std::filesystem::exists(video()));
+}
+
+// Odd sizes lose a column and a row: the format knows even ones alone.
+TEST_F(FlythroughCommand, TheRealFfmpegMakesAVideoAsLongAsThePath) {
+    if (run_process({"sh", "-c", "command -v ffmpeg && command -v ffprobe"}).status != 0)
+        GTEST_SKIP() << "no ffmpeg here";
+    ASSERT_EQ(fly(12).status, 0);
+    const auto probe = [&](const std::string& entries) {
+        return run_process({"ffprobe", "-loglevel", "error", "-select_streams", "v", "-show_entries",
+                            "stream=" + entries, "-of", "csv=p=0", video().string()})
+            .out;
+    };
+    EXPECT_EQ(probe("width,height"), "64,36\n");
+    EXPECT_NEAR(std::stod(probe("duration")), PATH_DURATION_S, 0.1);
+}
+
+}  // namespace
+}  // namespace tarn::test
