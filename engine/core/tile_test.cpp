@@ -271,6 +271,15 @@ TileTest finish(TileTest test, std::size_t non_finite) {
 
 }  // namespace
 
+std::string describe(const TileTest& t) {
+    return fmt::format(
+        "smallest p {:.3g}, threshold {:.3g}, {:.0f} % of tests pooled; worst tile at ({}, {}), {} px, "
+        "channel {}: {:.6g} "
+        "against {:.6g}, standard error {:.3g}",
+        t.min_p_value, t.threshold, 100.0 * t.pooled_fraction, t.x, t.y, t.size_px, t.channel, t.mean,
+        t.reference_mean, t.standard_error);
+}
+
 TileSamples::TileSamples(int width_px, int height_px, int tile_size_px)
     : width_(width_px), height_(height_px), tile_size_px_(tile_size_px) {
     TARN_ASSERT(width_px > 0 && height_px > 0 && tile_size_px > 0, "{} x {} pixels in tiles of {}", width_px,

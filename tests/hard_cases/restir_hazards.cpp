@@ -123,5 +123,32 @@ TEST_F(RestirHazards, SamplesOlderThanTheCapAreGone) {
     EXPECT_GT(share_of_kept_samples(0, 8), 0.3);
 }
 
+// A black mirror on the ground with a lamp over it, which the camera sees in the mirror alone: the mean of
+// some frames.
+double mirrored_light(Reuse reuse, Mis mis, const std::vector<std::string>& planted = {}) {
+    constexpr int FRAMES = 16;
+    ToyScene toy;
+    Material mirror = lambert_material(glm::vec3(0.0f));
+    mirror.specular = 1.0f;
+    mirror.roughness = 0.04f;
+    toy.add_quad(toy.add_material(mirror), {-4, 0, 4}, {8, 0, 0}, {0, 0, -8});
+    toy.add_quad(toy.add_material(emissive_material(glm::vec3(3.0f, 2.0f, 1.0f))), {-0.5f, 3.0f, -3.0f},
+                 {1, 0, 0}, {0, 0, 1});
+    ToyRender render(toy.scene, WIDTH_PX, HEIGHT_PX, {}, planted);
+    render.settings = find_preset("unbiased").settings;
+    render.settings.reuse = reuse;
+    render.settings.mis = mis;
+    return mean_of(render.render(look_at_stage(render), DirectMode::RESTIR, FRAMES));
+}
+
+// To the neighbours of a mirror's pixel its light is next to impossible to draw, and yet not impossible.
+TEST_F(RestirHazards, MirrorsKeepTheirEnergyAmongNeighbours) {
+    const double alone = mirrored_light(Reuse::NONE, Mis::PAIRWISE);
+    EXPECT_GT(alone, 1e-4);
+    for (const Mis mis : {Mis::COUNT, Mis::BALANCE, Mis::PAIRWISE})
+        EXPECT_NEAR(mirrored_light(Reuse::SPATIAL, mis) / alone, 1.0, 0.02) << int(mis);
+    EXPECT_LT(mirrored_light(Reuse::SPATIAL, Mis::COUNT, {"TARN_PLANT_COUNT_MIRRORS"}) / alone, 0.9);
+}
+
 }  // namespace
 }  // namespace tarn::test

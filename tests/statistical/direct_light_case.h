@@ -57,12 +57,7 @@ class DirectLightCase {
     // Tests and prints. `what` tells the runs of a scene apart.
     TileTest test(const TileSamples& samples, const std::string& what) const {
         const TileTest test = samples.test(reference_, SIGNIFICANCE);
-        std::printf(
-            "%s, %s: smallest p %.3g, threshold %.3g, %.0f %% of tests pooled; worst tile at (%d, %d), %d "
-            "px: "
-            "%.6g against %.6g\n",
-            name_.c_str(), what.c_str(), test.min_p_value, test.threshold, 100.0 * test.pooled_fraction,
-            test.x, test.y, test.size_px, test.mean, test.reference_mean);
+        fmt::print("{}, {}: {}\n", name_, what, describe(test));
         return test;
     }
 

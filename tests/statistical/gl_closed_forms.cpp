@@ -61,10 +61,7 @@ TileTest test_mean(ToyRender& render, const CameraRecord& camera, DirectMode mod
         }
     }
     const TileTest test = samples.test(known, SIGNIFICANCE);
-    std::printf(
-        "%s: smallest p %.3g, threshold %.3g, %.0f %% of tests pooled; worst tile %.6g against %.6g\n",
-        name_of(mode), test.min_p_value, test.threshold, 100.0 * test.pooled_fraction, test.mean,
-        test.reference_mean);
+    fmt::print("{}: {}\n", name_of(mode), describe(test));
     // Nothing here is rare: each tile is to be tested as itself.
     EXPECT_EQ(test.pooled_fraction, 0.0);
     return test;

@@ -154,9 +154,7 @@ class RestirChanges : public testing::Test {
     }
 
     static TileTest report(const char* when, const TileTest& test) {
-        std::printf("%s: smallest p %.3g, threshold %.3g, %.0f %% pooled; (%d, %d): %.6g against %.6g\n",
-                    when, test.min_p_value, test.threshold, 100.0 * test.pooled_fraction, test.x, test.y,
-                    test.mean, test.reference_mean);
+        fmt::print("{}: {}\n", when, describe(test));
         return test;
     }
 

@@ -33,11 +33,6 @@ inline TileTest compare_with_known(const ReferenceResult& result, const Image& k
                       1e-3, rounding);
 }
 
-inline std::string describe(const TileTest& t) {
-    return fmt::format("tile at ({}, {}), channel {}: {} against {}, standard error {}, p {} of {}", t.x, t.y,
-                       t.channel, t.mean, t.reference_mean, t.standard_error, t.min_p_value, t.threshold);
-}
-
 // The ray through the centre of a pixel, in double precision, relative to the world's origin.
 struct PreciseRay {
     glm::dvec3 origin;

@@ -130,18 +130,22 @@ std::vector<Cell> plan_cells(const BenchPlan& plan, FrameSource& source, const W
     return cells;
 }
 
+void measure_cell(const BenchPlan& plan, const Cell& cell, int k, FrameSource& source, const Truth& truth,
+                  const WorkFolder& work, const std::atomic<bool>& cancel) {
+    if (cancel) throw Error("interrupted; the same command goes on where it stopped");
+    const std::uint32_t seed = plan.first_seed + std::uint32_t(k);
+    const std::string name = unit_name(cell, seed);
+    if (!work.load_measure(name))
+        work.save(name, measure_sequence(source, truth, request_for(plan, cell, seed)));
+}
+
 void measure_cells(const BenchPlan& plan, const std::vector<Cell>& cells, FrameSource& source,
                    const Truth& truth, const WorkFolder& work, const std::atomic<bool>& cancel) {
     Progress progress("measuring", std::uint64_t(plan.seeds) * cells.size());
     std::uint64_t done = 0;
     for (int k = 0; k < plan.seeds; ++k) {
-        const std::uint32_t seed = plan.first_seed + std::uint32_t(k);
         for (const Cell& cell : cells) {
-            if (cancel) throw Error("interrupted; the same command goes on where it stopped");
-            const std::string name = unit_name(cell, seed);
-            if (!work.load_measure(name)) {
-                work.save(name, measure_sequence(source, truth, request_for(plan, cell, seed)));
-            }
+            measure_cell(plan, cell, k, source, truth, work, cancel);
             progress.update(++done);
         }
     }

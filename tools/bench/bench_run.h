@@ -34,9 +34,13 @@ std::vector<Cell> plan_cells(const BenchPlan& plan, FrameSource& source, const W
 // Under which name the work folder keeps the sequence of a cell and a seed.
 std::string unit_name(const Cell& cell, std::uint32_t seed);
 
-// Measures every cell for every seed that the work folder does not hold yet: seed by seed, and within a seed
-// method by method, so that a busy minute of the machine falls on all methods alike. Shows progress. Throws
-// Error where `cancel` turns true; what is done is kept.
+// Measures a cell for seed number `k` of the plan, unless the work folder holds it. Throws Error where
+// `cancel` is true.
+void measure_cell(const BenchPlan& plan, const Cell& cell, int k, FrameSource& source, const Truth& truth,
+                  const WorkFolder& work, const std::atomic<bool>& cancel);
+
+// The same for every cell and seed: seed by seed, and within a seed method by method, so that a busy minute
+// of the machine falls on all methods alike. Shows progress; what was done when `cancel` turned true is kept.
 void measure_cells(const BenchPlan& plan, const std::vector<Cell>& cells, FrameSource& source,
                    const Truth& truth, const WorkFolder& work, const std::atomic<bool>& cancel);
 

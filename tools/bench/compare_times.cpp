@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "bench/compare_results.h"
 #include "core/statistics.h"
@@ -117,6 +118,8 @@ std::vector<CellTimes> collect_cells(const std::vector<CellPair>& pairs) {
     return cells;
 }
 
+constexpr double NORMAL_SD_PER_MAD = 1.4826;  // standard deviation over median absolute deviation
+
 // What is known of the scatter before a comparison is made: passes of equal work differ by so much between
 // two runs on a machine that nobody else uses (standard deviation of logarithms), as if so many passes had
 // shown it.
@@ -130,7 +133,6 @@ struct Scatter {
 };
 
 Scatter find_scatter(std::vector<Weighted> residuals, std::size_t centres) {
-    constexpr double NORMAL_SD_PER_MAD = 1.4826;
     for (Weighted& residual : residuals) residual.value = std::abs(residual.value);
     const double count = double(residuals.size()), freedom = count - double(centres);
     if (freedom <= 0.0) return {};
@@ -173,17 +175,30 @@ Drift find_drift(const std::vector<CellTimes>& cells) {
     return drift;
 }
 
+// Where the seeds of a run lie, and how surely. A machine that does something else for a moment spoils a seed
+// or two: the median does not mind.
+struct Middle {
+    double value = 0.0;
+    double variance = 0.0;  // of the value, were the seeds normal but for a few
+};
+
+Middle find_middle(const std::vector<double>& seeds) {
+    const double median = quantile(seeds, 0.5);
+    std::vector<double> distances;
+    for (const double value : seeds) distances.push_back(std::abs(value - median));
+    const double deviation = NORMAL_SD_PER_MAD * quantile(std::move(distances), 0.5);
+    return {median, 0.5 * std::numbers::pi * deviation * deviation / double(seeds.size())};
+}
+
 // How likely a time moves so far from `factor` by chance. Seeds tell how it varies within a run; between runs
-// caches, clocks and neighbours are others, which no seed knows of: `scatter` tells that.
+// caches, clocks and neighbours are others, which no seed knows of: `found` tells that.
 Finding judge_time(const TimeSeries& s, double factor, const Scatter& found) {
     const Scatter scatter = moderate(found);
-    RunningMoments before, after;
-    for (const double value : s.before) before.add(value);
-    for (const double value : s.after) after.add(value);
-    Finding finding{s.name, std::exp(before.mean()), std::exp(after.mean() - factor), 1.0, true};
+    const Middle before = find_middle(s.before), after = find_middle(s.after);
+    Finding finding{s.name, std::exp(before.value), std::exp(after.value - factor), 1.0, true};
     finding.is_worse = finding.after > finding.before;
-    const double variance = before.variance_of_mean() + after.variance_of_mean() +
-                            scatter.deviation * scatter.deviation + s.jitter() * s.jitter();
+    const double variance =
+        before.variance + after.variance + scatter.deviation * scatter.deviation + s.jitter() * s.jitter();
     if (found.degrees_of_freedom > 0.0) {  // else the machine's part in it is not known
         finding.p_value = student_t_two_sided_p_value(
             std::log(finding.after / finding.before) / std::sqrt(variance), scatter.degrees_of_freedom);

@@ -48,6 +48,12 @@ function makeTable(headings, rows) {
     element("table", {}, element("thead", {}, head), element("tbody", {}, ...body)));
 }
 
+// Whether the middle of a 95 % interval is off `value` by more than twice the interval's reach. A page has dozens of
+// intervals: one in twenty misses by chance, one in ten thousand by so much.
+function isFarFrom(value, low, high) {
+  return Math.abs((low + high) / 2 - value) > high - low;
+}
+
 // mean +- half of the interval; marked where `isOdd`.
 function makeEstimate(estimate, isOdd) {
   const reach = (estimate.high - estimate.low) / 2;

@@ -17,7 +17,8 @@ function describeEffort(method, cell) {
 
 function makeBias(bias) {
   const text = `${formatNumber(bias.low)} … ${formatNumber(bias.high)}`;
-  return element("span", bias.low > 0 ? {class: "mark", title: "above 0: beyond the noise"} : {}, text);
+  const isBiased = bias.low > 0 && isFarFrom(0, bias.low, bias.high);
+  return element("span", isBiased ? {class: "mark", title: "above 0 by more than twice the interval's reach"} : {}, text);
 }
 
 function makeMs(cell) {
@@ -43,7 +44,7 @@ function makeErrorTable(scene) {
   return makeCellTable(scene, ["ms (p95)", "relMSE", "trimmed", "FLIP", "energy", "relative bias²"], (cell) => {
     const ratio = cell.errors.mean_ratio;
     return [makeMs(cell), makeEstimate(cell.errors.rel_mse), makeEstimate(cell.errors.rel_mse_trimmed),
-      makeEstimate(cell.errors.flip_ldr), makeEstimate(ratio, ratio.low > 1 || ratio.high < 1), makeBias(cell.relative_bias)];
+      makeEstimate(cell.errors.flip_ldr), makeEstimate(ratio, isFarFrom(1, ratio.low, ratio.high)), makeBias(cell.relative_bias)];
   });
 }
 

@@ -62,7 +62,9 @@ bool can_join(Receiver here, ivec2 pixel, ivec2 neighbour) {
     Look own = look_of(here.point);
     // 1/Z gives all who could have made a sample the same share of it, however rarely they do: a mirror's energy would
     // hang on samples that no run meets. Balance and pairwise know how likely each is.
+#ifndef TARN_PLANT_COUNT_MIRRORS
     if (MIS == MIS_COUNT && is_mirror_like(look, own)) return false;
+#endif
     return position.w >= 0.0f && is_similar(look, own, view_depth(frame_camera(), here.point.position));
 }
 

@@ -180,7 +180,7 @@ FN LightCandidate draw_light_uniformly(uvec4 bits) {
     if (count == 0u) return no_candidate();
     uint index = uniform_index(bits.x, count);
     float pmf = 1.0f / float(count);
-    if (index < get_light_count()) {
+    if (!SCENE_HAS_ENVIRONMENT || index < get_light_count()) {
         return draw_on_light(index, pmf, vec2(float_from_bits(bits.z), float_from_bits(bits.w)));
     }
     LightCandidate sky = draw_environment(hash_pcg4d(bits));
