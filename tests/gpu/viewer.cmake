@@ -3,10 +3,10 @@ tarn_test(display_pass LABEL gpu LIBRARIES tarn_passes tarn_platform)
 
 find_program(XDOTOOL xdotool)
 find_program(IMPORT import)
-if(XVFB_RUN AND XDOTOOL AND IMPORT)
-  set(VIEWER_DISPLAY ${XVFB_RUN} -a -s "-screen 0 1280x800x24")
+if(WITH_DISPLAY AND XDOTOOL AND IMPORT)
+  set(VIEWER_DISPLAY ${WITH_DISPLAY})
 else()
-  set(VIEWER_DISPLAY env TARN_SKIP_VIEWER=xvfb-run,\ xdotool\ or\ imagemagick\ is\ missing)
+  set(VIEWER_DISPLAY env TARN_SKIP_VIEWER=Xvfb,\ xdotool\ or\ imagemagick\ is\ missing)
 endif()
 add_test(NAME viewer_in_xvfb
          COMMAND ${VIEWER_DISPLAY} bash ${CMAKE_CURRENT_SOURCE_DIR}/viewer.sh $<TARGET_FILE:tarn>
