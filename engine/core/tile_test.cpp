@@ -274,8 +274,7 @@ TileTest finish(TileTest test, std::size_t non_finite) {
 std::string describe(const TileTest& t) {
     return fmt::format(
         "smallest p {:.3g}, threshold {:.3g}, {:.0f} % of tests pooled; worst tile at ({}, {}), {} px, "
-        "channel {}: {:.6g} "
-        "against {:.6g}, standard error {:.3g}",
+        "channel {}: {:.6g} against {:.6g}, standard error {:.3g}",
         t.min_p_value, t.threshold, 100.0 * t.pooled_fraction, t.x, t.y, t.size_px, t.channel, t.mean,
         t.reference_mean, t.standard_error);
 }
