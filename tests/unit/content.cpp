@@ -171,6 +171,32 @@ TEST(ManyLights, RefusesToMoveMoreThanThereAre) {
     }
 }
 
+// Saturation 0 makes every light white and keeps what an eye sees of its power.
+TEST(ManyLights, PalesWithItsSaturation) {
+    double spread_before = 0.0;
+    for (const double saturation : {0.0, 0.5, 1.0}) {
+        SceneOptions options;
+        options.saturation = saturation;
+        const ReadScene scene = read_scene(generate_scene("many_lights", options));
+        double spread = 0.0;
+        for (const ReadTriangle& t : scene.triangles) {
+            const glm::dvec3 radiance = scene.radiance(t.material);
+            spread = std::max({spread, std::abs(radiance.r - radiance.g), std::abs(radiance.g - radiance.b)});
+        }
+        EXPECT_NEAR(luminous_power(scene), 8000.0, 8.0) << saturation;
+        if (saturation == 0.0)
+            EXPECT_EQ(spread, 0.0);
+        else
+            EXPECT_GT(spread, 1.9 * spread_before) << saturation;
+        spread_before = spread;
+    }
+    for (const double saturation : {-0.1, 1.1, std::nan("")}) {
+        SceneOptions options;
+        options.saturation = saturation;
+        EXPECT_THROW(generate_scene("many_lights", options), Error) << saturation;
+    }
+}
+
 TEST(ManyLights, ChangesWithTheSeed) {
     SceneOptions other;
     other.seed = 2;

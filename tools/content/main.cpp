@@ -20,6 +20,9 @@ int run(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--moving", options.moving_percent, "many_lights: per cent of them that drift, 0 to 100")
         ->capture_default_str();
+    app.add_option("--saturation", options.saturation,
+                   "many_lights, coloured_lights: of the lights' colours, 0 (all white) to 1 (pure hues)")
+        ->capture_default_str();
     app.add_option("--seed", options.seed, "Seed of everything random")->capture_default_str();
     try {
         app.parse(argc, argv);

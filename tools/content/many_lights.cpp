@@ -23,6 +23,7 @@ constexpr glm::vec3 HUES[] = {{1.0f, 0.75f, 0.45f}, {1.0f, 0.55f, 0.2f}, {1.0f, 
                               {0.3f, 1.0f, 0.45f},  {0.9f, 0.3f, 1.0f},  {1.0f, 0.35f, 0.6f},
                               {0.3f, 1.0f, 0.9f},   {0.8f, 1.0f, 0.3f},  {1.0f, 1.0f, 1.0f}};
 constexpr int HUE_COUNT = std::size(HUES);
+constexpr double TINTED_SATURATION = 0.5;
 
 float luminance(const glm::vec3& c) {
     return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
@@ -102,17 +103,23 @@ struct Lights {
     std::vector<int> materials;  // one a hue
 };
 
-Lights make_lights(GltfWriter& writer, const Random& random, int count, const std::vector<Box>& boxes) {
+// Of luminance 1.
+glm::vec3 colour_of(int hue, double saturation) {
+    return glm::mix(glm::vec3(1.0f), HUES[hue] / luminance(HUES[hue]), static_cast<float>(saturation));
+}
+
+Lights make_lights(GltfWriter& writer, const SceneOptions& options, const std::vector<Box>& boxes) {
+    const int count = options.count;
     const double side = 0.12 * std::sqrt(std::sqrt(1000.0 / count));
     const double area = side * side * 0.4330127018922193;
     const double radiance = TOTAL_POWER / (PI * area * count);
-    Lights lights{random, boxes, static_cast<float>(side), {}};
+    Lights lights{Random(options.seed), boxes, static_cast<float>(side), {}};
     for (int hue = 0; hue < std::min(count, HUE_COUNT); ++hue) {
         MaterialSpec spec;
         spec.name = "light " + std::to_string(hue);
         spec.base_color = glm::vec3(0.0f);
         spec.specular = 0.0f;
-        spec.radiance = HUES[hue] / luminance(HUES[hue]) * static_cast<float>(radiance);
+        spec.radiance = colour_of(hue, options.saturation) * static_cast<float>(radiance);
         lights.materials.push_back(writer.add_material(spec));
     }
     return lights;
@@ -195,7 +202,9 @@ void build_many_lights(GltfWriter& writer, const SceneOptions& options) {
     if (options.count < 1 || options.count > MAX_COUNT) {
         throw Error("many_lights: count is {}, must be 1 to {}", options.count, MAX_COUNT);
     }
-    const Random random(options.seed);
+    if (!(options.saturation >= 0.0 && options.saturation <= 1.0)) {
+        throw Error("many_lights: saturation is {}, must be 0 to 1", options.saturation);
+    }
     MaterialSpec stone;
     stone.name = "stone";
     stone.base_color = glm::vec3(0.45f);
@@ -212,7 +221,7 @@ void build_many_lights(GltfWriter& writer, const SceneOptions& options) {
     Shape blocks;
     for (const Box& box : boxes) append(blocks, make_box(box.lower, box.upper));
     writer.add_node("boxes", {}, writer.add_mesh("boxes", {{blocks, writer.add_material(stone)}}));
-    const Lights lights = make_lights(writer, random, options.count, boxes);
+    const Lights lights = make_lights(writer, options, boxes);
     const int moving = count_moving(options);
     add_still_lights(writer, lights, moving, options.count);
     add_drifting_lights(writer, lights, moving);
@@ -225,6 +234,13 @@ void build_coloured_lights(GltfWriter& writer, const SceneOptions& options) {
     few.count = HUE_COUNT;
     few.moving_percent = 0.0;
     build_many_lights(writer, few);
+}
+
+// The same with hues of coloured lamps, not of lasers: between white and the pure ones.
+void build_tinted_lights(GltfWriter& writer, const SceneOptions& options) {
+    SceneOptions tinted = options;
+    tinted.saturation = TINTED_SATURATION;
+    build_coloured_lights(writer, tinted);
 }
 
 }  // namespace tarn::content

@@ -20,6 +20,7 @@ constexpr Entry ENTRIES[] = {
     {"rectangle_over_plane", build_rectangle_over_plane},
     {"many_lights", build_many_lights},
     {"coloured_lights", build_coloured_lights},
+    {"tinted_lights", build_tinted_lights},
 };
 
 }  // namespace

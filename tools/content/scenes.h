@@ -13,6 +13,7 @@ struct SceneOptions {
     std::uint64_t seed = 1;
     int count = 1000;             // many_lights: how many emissive triangles, 1 to 1 000 000
     double moving_percent = 0.0;  // many_lights: how many of them drift, in groups of up to 100
+    double saturation = 1.0;  // many_lights, coloured_lights: of the lights, 0 (all white) to 1 (pure hues)
 };
 
 // Scene names, in the order in which --help lists them.
@@ -30,5 +31,6 @@ void build_point_over_plane(GltfWriter& writer, const SceneOptions& options);
 void build_rectangle_over_plane(GltfWriter& writer, const SceneOptions& options);
 void build_many_lights(GltfWriter& writer, const SceneOptions& options);
 void build_coloured_lights(GltfWriter& writer, const SceneOptions& options);
+void build_tinted_lights(GltfWriter& writer, const SceneOptions& options);
 
 }  // namespace tarn::content
