@@ -5,14 +5,19 @@
 
 ivec2 frame_size_px() { return ivec2(frame_size.xy); }
 
-CameraRecord frame_camera() {
+// As the frame block stores it: whether it is orthographic stands beside its position.
+CameraRecord unpack_camera(vec4 position, vec4 right, vec4 up, vec4 forward) {
     CameraRecord camera;
-    camera.position = frame_camera_position.xyz;
-    camera.right = frame_camera_right.xyz;
-    camera.up = frame_camera_up.xyz;
-    camera.forward = frame_camera_forward.xyz;
-    camera.orthographic = frame_camera_position.w != 0.0f;
+    camera.position = position.xyz;
+    camera.right = right.xyz;
+    camera.up = up.xyz;
+    camera.forward = forward.xyz;
+    camera.orthographic = position.w != 0.0f;
     return camera;
+}
+
+CameraRecord frame_camera() {
+    return unpack_camera(frame_camera_position, frame_camera_right, frame_camera_up, frame_camera_forward);
 }
 
 PixelRay pixel_ray(ivec2 pixel) { return camera_ray(frame_camera(), vec2(pixel) + 0.5f, vec2(frame_size.xy)); }

@@ -8,13 +8,7 @@ layout(binding = UNIT_PREVIOUS_SURFACE) uniform sampler2DArray previous_layers;
 bool has_past() { return frame_history.w != 0u; }
 
 CameraRecord previous_camera() {
-    CameraRecord camera;
-    camera.position = frame_previous_position.xyz;
-    camera.right = frame_previous_right.xyz;
-    camera.up = frame_previous_up.xyz;
-    camera.forward = frame_previous_forward.xyz;
-    camera.orthographic = frame_previous_position.w != 0.0f;
-    return camera;
+    return unpack_camera(frame_previous_position, frame_previous_right, frame_previous_up, frame_previous_forward);
 }
 
 // Where the surface of `pixel` was in the last frame, relative to the world's origin.

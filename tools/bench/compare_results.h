@@ -21,8 +21,6 @@ namespace tarn {
 // Changes below these are not told, however certain: shares of the value before.
 inline constexpr double SMALLEST_TIME_CHANGE = 0.05;
 inline constexpr double SMALLEST_ERROR_CHANGE = 0.001;
-// By which any time varies, however short: threads wake up sooner or later.
-inline constexpr double TIME_JITTER_MS = 0.05;
 
 // Returns {"old", "machine_factor", "machine_scatter", "summary", "findings": [{"what", "before", "after",
 // "ratio", "verdict", "p_value"}]}, which the page shows as "comparison". `old_name` stands for the old run.

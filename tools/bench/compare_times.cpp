@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "bench/compare_results.h"
 #include "core/statistics.h"
 
 namespace tarn {
@@ -14,6 +13,8 @@ using Json = nlohmann::ordered_json;
 
 // Of a pass between two runs, roughly: below it a longer pass is worth no more than a shorter one.
 constexpr double TYPICAL_SCATTER = 0.05;
+// By which any time varies, however short: threads wake up sooner or later.
+constexpr double TIME_JITTER_MS = 0.05;
 
 // Logarithms of one time, one a seed, before and after.
 struct TimeSeries {

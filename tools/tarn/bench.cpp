@@ -134,6 +134,36 @@ Json bench_scene(const BenchCommand& command, const BenchPlan& plan, const std::
     return json;
 }
 
+std::string describe_cell(const Json& method, const Json& cell) {
+    const std::string label = method["label"].get<std::string>();
+    return cell["budget_ms"].is_null() ? fmt::format("{} {}", label, cell["kind"].get<std::string>())
+                                       : fmt::format("{} {:g} ms", label, cell["budget_ms"].get<double>());
+}
+
+// Of the column that names the cells.
+std::size_t find_label_width(const Json& scene) {
+    std::size_t width = 28;
+    for (const Json& method : scene["methods"]) {
+        for (const Json& cell : method["cells"]) width = std::max(width, describe_cell(method, cell).size());
+    }
+    return width;
+}
+
+void print_cell(const Json& cell, const std::string& label, std::size_t label_width) {
+    const auto value = [&](const char* name, const char* part) {
+        return cell["errors"][name][part].get<double>();
+    };
+    const auto reach = [&](const char* name) { return value(name, "high") - value(name, "mean"); };
+    const Json& split = cell["relative_bias"];
+    fmt::print("  {:<{}} {:8.1f} {:7} {:>18} {:9.4f} {:>15} {:13.4f} {:>22}\n", label, label_width,
+               cell["ms"]["median"].get<double>(), cell["frames"].get<int>(),
+               fmt::format("{:.4f} +- {:.4f}", value("rel_mse", "mean"), reach("rel_mse")),
+               value("flip_ldr", "mean"),
+               fmt::format("{:.3f} +- {:.3f}", value("mean_ratio", "mean"), reach("mean_ratio")),
+               split["variance"].get<double>(),
+               fmt::format("{:.1e} .. {:.1e}", split["low"].get<double>(), split["high"].get<double>()));
+}
+
 void print_scene(const Json& scene) {
     fmt::print(
         "\n{}: against {} samples a pixel (relMSE of its own: {:.2g}), {} pixels on silhouettes left out; "
@@ -142,31 +172,15 @@ void print_scene(const Json& scene) {
         scene["reference"]["noise_rel_mse"].get<double>(),
         scene["reference"]["left_out_pixels"].get<std::uint64_t>(),
         scene["reference"]["exposure_ev"].get<double>());
-    fmt::print("  {:<28} {:>8} {:>7} {:>18} {:>9} {:>15} {:>22}\n", "method", "ms", "frames", "relMSE",
-               "FLIP", "energy", "relative bias^2 (95 %)");
+    const std::size_t label_width = find_label_width(scene);
+    fmt::print("  {:<{}} {:>8} {:>7} {:>18} {:>9} {:>15} {:>13} {:>22}\n", "method", label_width, "ms",
+               "frames", "relMSE", "FLIP", "energy", "rel. variance", "rel. bias^2 (95 %)");
     for (const Json& method : scene["methods"]) {
-        for (const Json& cell : method["cells"]) {
-            const auto value = [&](const char* name, const char* part) {
-                return cell["errors"][name][part].get<double>();
-            };
-            const auto reach = [&](const char* name) { return value(name, "high") - value(name, "mean"); };
-            const std::string label = cell["budget_ms"].is_null()
-                                          ? fmt::format("{} {}", method["label"].get<std::string>(),
-                                                        cell["kind"].get<std::string>())
-                                          : fmt::format("{} {:g} ms", method["label"].get<std::string>(),
-                                                        cell["budget_ms"].get<double>());
-            fmt::print("  {:<28} {:8.1f} {:7} {:>18} {:9.4f} {:>15} {:>22}\n", label,
-                       cell["ms"]["median"].get<double>(), cell["frames"].get<int>(),
-                       fmt::format("{:.4f} +- {:.4f}", value("rel_mse", "mean"), reach("rel_mse")),
-                       value("flip_ldr", "mean"),
-                       fmt::format("{:.3f} +- {:.3f}", value("mean_ratio", "mean"), reach("mean_ratio")),
-                       fmt::format("{:.1e} .. {:.1e}", cell["relative_bias"]["low"].get<double>(),
-                                   cell["relative_bias"]["high"].get<double>()));
-        }
+        for (const Json& cell : method["cells"]) print_cell(cell, describe_cell(method, cell), label_width);
         const Json& slope = method["slope"];
         if (slope["mean"].is_number()) {
-            fmt::print("  {:<28} MSE falls with time to the power {:.3f} ({:.3f} .. {:.3f})\n",
-                       method["label"].get<std::string>(), slope["mean"].get<double>(),
+            fmt::print("  {:<{}} MSE falls with time to the power {:.3f} ({:.3f} .. {:.3f})\n",
+                       method["label"].get<std::string>(), label_width, slope["mean"].get<double>(),
                        slope["low"].get<double>(), slope["high"].get<double>());
         }
     }
