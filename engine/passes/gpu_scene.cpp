@@ -35,13 +35,16 @@ std::vector<std::uint32_t> find_previous_vertices(const World& world) {
     return result;
 }
 
-// The instances as they are, with the vertices that the last frame had.
+// The instances as they are, with the vertices and the materials that the last frame had.
 std::vector<glm::uvec4> previous_instance_rows(const World& world,
                                                const std::vector<std::uint32_t>& previous_first_vertex) {
+    const auto material_count = std::uint32_t(world.material_flags.size());
     std::vector<glm::uvec4> rows = world.instance_rows;
     for (std::size_t i = 0; i < world.instances.size(); ++i) {
+        glm::uvec4& row = rows[i * INSTANCE_ROWS + 3];
         const std::uint32_t first = previous_first_vertex[world.instances[i].mesh];
-        if (first != INVALID_INDEX) rows[i * INSTANCE_ROWS + 3].y = first;
+        if (first != INVALID_INDEX) row.y = first;
+        row.z += material_count;
     }
     return rows;
 }
@@ -52,6 +55,12 @@ std::vector<glm::uvec4> instance_rows_with_history(const World& world,
     const std::vector<glm::uvec4> previous = previous_instance_rows(world, previous_first_vertex);
     rows.insert(rows.end(), previous.begin(), previous.end());
     return rows;
+}
+
+std::vector<glm::uvec4> twice(const std::vector<glm::uvec4>& rows) {
+    std::vector<glm::uvec4> result = rows;
+    result.insert(result.end(), rows.begin(), rows.end());
+    return result;
 }
 
 }  // namespace
@@ -65,7 +74,7 @@ GpuScene::GpuScene(const World& world)
       triangles_("scene/triangles", world.triangles, GL_RGB32UI),
       instances_("scene/instance_rows", instance_rows_with_history(world, previous_first_vertex_),
                  GL_RGBA32UI),
-      materials_("scene/material_rows", world.material_rows, GL_RGBA32UI),
+      materials_("scene/material_rows", twice(world.material_rows), GL_RGBA32UI),
       texels_("scene/texels", world.texels, GL_RGBA16),
       lights_(world.lights),
       environment_texels_("scene/environment_texels", world.environment.texels, GL_RGBA32F),
@@ -81,6 +90,7 @@ void GpuScene::update(const World& world) {
     if (world.material_revision != material_revision_) {
         material_revision_ = world.material_revision;
         materials_.upload(world.material_rows);
+        edited_materials_ = has_edited_materials_ = true;
     }
     has_moved_ = has_moved_ || moved_instances_ || !moved_meshes_.empty();
     lights_.update(world.lights);
@@ -110,6 +120,10 @@ void GpuScene::advance(const World& world) {
         const std::vector<glm::uvec4> rows = previous_instance_rows(world, previous_first_vertex_);
         instances_.upload_range(world.instance_rows.size(), std::span<const glm::uvec4>(rows));
         moved_instances_ = false;
+    }
+    if (edited_materials_) {
+        materials_.copy_rows(0, world.material_rows.size(), world.material_rows.size());
+        edited_materials_ = false;
     }
     lights_.advance();
 }

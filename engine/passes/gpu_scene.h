@@ -63,10 +63,11 @@ class GpuScene {
     std::uint32_t previous_first_instance() const { return std::uint32_t(instance_revisions_.size()); }
     // Whether anything ever moved: only then do shaders ask where it was.
     bool has_moved() const { return has_moved_; }
+    // Whether any light ever changed, or a material, which may say how much of a light is there.
+    bool have_lights_changed() const { return has_edited_materials_ || lights_.have_changed(); }
 
   private:
     void update_vertices(const World& world);
-    void upload_previous_instances(const World& world);
 
     std::vector<std::uint64_t> mesh_revisions_;
     std::vector<std::uint64_t> instance_revisions_;
@@ -76,6 +77,8 @@ class GpuScene {
     std::vector<std::uint32_t> moved_meshes_;  // since the last frame
     bool moved_instances_ = false;
     bool has_moved_ = false;
+    bool edited_materials_ = false;  // since the last frame
+    bool has_edited_materials_ = false;
     Table vertices_;
     Table triangles_;
     Table instances_;

@@ -7,10 +7,11 @@ VisibilityPass::VisibilityPass(std::size_t ray_capacity)
 
 const RowBuffer& VisibilityPass::record(FrameRecorder& frame, const std::string& name,
                                         const RayTracer& tracer, const Buffer& rays, std::size_t ray_count,
-                                        const CoverageKey& key) {
+                                        const CoverageKey& key, const PreviousRays& previous) {
     frame.pass(name).read_on_cpu(rays).write_on_cpu(answers_.buffer()).run_on_cpu([&] {
         const auto ray_rows = rays.mapped<glm::uvec4>().first(ray_count * RAY_ROWS);
-        result_ = tracer.trace_visibility(ray_rows, answers_.buffer().mapped<float>().first(ray_count), key);
+        result_ = tracer.trace_visibility(ray_rows, answers_.buffer().mapped<float>().first(ray_count), key,
+                                          previous);
     });
     return answers_;
 }

@@ -14,9 +14,10 @@ class VisibilityPass {
     explicit VisibilityPass(std::size_t ray_capacity);
 
     // Traces the first `ray_count` of `rays` (RAY_ROWS rows a ray, SHARED) as pass `name`. Returns one float
-    // a ray: 1 where nothing is in the way, else 0. The only place where GL memory meets the ray tracer.
+    // a ray: 1 where nothing is in the way, else 0. Rays flagged RAY_PREVIOUS are answered by `previous`.
     const RowBuffer& record(FrameRecorder& frame, const std::string& name, const RayTracer& tracer,
-                            const Buffer& rays, std::size_t ray_count, const CoverageKey& key);
+                            const Buffer& rays, std::size_t ray_count, const CoverageKey& key,
+                            const PreviousRays& previous = {});
 
     const RowBuffer& answers() const { return answers_; }
 

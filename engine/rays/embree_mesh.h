@@ -1,4 +1,4 @@
-// One mesh of the world as an Embree scene of one geometry, over the world's own memory.
+// One mesh of the world as an Embree scene of one geometry.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,9 @@ namespace tarn {
 
 class EmbreeMesh {
   public:
-    // `coverage_filter` is null where no instance of the mesh has an alpha test.
+    // `coverage_filter` is null where no instance of the mesh has an alpha test. A mesh that never deforms is
+    // read where it lies in the world's memory; of one that does, a copy of its vertices is kept, so that this
+    // object stays as it is when the world's vertices move.
     EmbreeMesh(RTCDevice device, const World& world, const WorldMesh& mesh,
                RTCFilterFunctionN coverage_filter);
 
@@ -26,20 +28,18 @@ class EmbreeMesh {
         return geometry_user_pointer != nullptr;
     }
 
-    // Follows the mesh's vertices: refits where they moved, rebuilds where the memory did. True if anything
-    // changed.
+    // Refits to the vertices of a mesh that deforms. True if anything changed.
     bool update(const World& world, const WorldMesh& mesh);
 
   private:
     void create(RTCDevice device, const World& world, const WorldMesh& mesh, RTCFilterFunctionN filter);
+    void copy_positions(const World& world, const WorldMesh& mesh, const glm::mat4& transform);
     void share_memory(const World& world, const WorldMesh& mesh);
     void commit();
 
     EmbreeScene scene_;
     EmbreeGeometry geometry_;
-    std::vector<glm::vec4> flattened_positions_;
-    const void* vertices_ = nullptr;
-    const void* triangles_ = nullptr;
+    std::vector<glm::vec4> positions_;  // the copy, where there is one
     std::uint64_t revision_ = 0;
     bool refits_ = false;
 };

@@ -1,14 +1,17 @@
-// Embree behind the RayTracer interface: one BVH per mesh, instances on top.
+// Embree behind the RayTracer interface: one BVH per mesh, instances on top, at the present moment and the one
+// before.
 //
 // A hit's meaning (alpha, facing) comes from the world's own tables, by two filters. Coverage belongs to
 // geometries and is set where a mesh has an instance with an alpha test. Facing belongs to the query: camera
 // rays alone bring it along. Both see object space, where facing needs no care for mirrored instances: the
 // determinant's sign turns the normal and the winding alike. Flattened copies lie in world space, where the
 // winding of a mirrored one is turned.
-#include <cmath>
+#include <array>
 
 #include "rays/embree_handles.h"
 #include "rays/embree_mesh.h"
+#include "rays/embree_snapshot.h"
+#include "rays/geometry_revisions.h"
 #include "rays/ray_checks.h"
 #include "rays/ray_tracer.h"
 
@@ -19,6 +22,7 @@ namespace {
 struct QueryContext {
     RTCIntersectContext embree;  // first, since filters get a pointer to it
     const World* world;
+    const EmbreeSnapshot* snapshot;
     CoverageKey key;
     std::uint32_t pixel;
 };
@@ -34,8 +38,9 @@ void filter_coverage(const RTCFilterFunctionNArguments* arguments) {
         if (arguments->valid[i] != -1) continue;
         const glm::vec2 barycentrics(RTCHitN_u(arguments->hit, n, i), RTCHitN_v(arguments->hit, n, i));
         const bool covered =
-            is_hit_covered(*query.world, query.key, query.pixel, RTCHitN_instID(arguments->hit, n, i, 0),
-                           RTCHitN_primID(arguments->hit, n, i), barycentrics);
+            is_hit_covered(*query.world, query.snapshot->material_rows(), query.key, query.pixel,
+                           RTCHitN_instID(arguments->hit, n, i, 0), RTCHitN_primID(arguments->hit, n, i),
+                           barycentrics);
         if (!covered) arguments->valid[i] = 0;
     }
 }
@@ -71,13 +76,6 @@ void fill_ray(RTCRay& target, const RayRecord& ray) {
     target.flags = 0;
 }
 
-// Whether Embree can take a ray into the instance's object space without losing its digits.
-bool is_invertible(const glm::mat4& world_from_object) {
-    const glm::dmat3 m(world_from_object);
-    const double longest = glm::length(m[0]) * glm::length(m[1]) * glm::length(m[2]);
-    return std::abs(glm::determinant(m)) > 1e-5 * longest;
-}
-
 class EmbreeTracer : public RayTracer {
   public:
     explicit EmbreeTracer(const World& world) : device_(rtcNewDevice(nullptr)) {
@@ -86,119 +84,111 @@ class EmbreeTracer : public RayTracer {
     }
 
     void update(const World& world) override {
-        if (meshes_.size() != world.meshes.size() || instances_.size() != world.instances.size()) {
+        if (!has_same_memory(world)) {
             rebuild(world);
+            revision_ += 2;  // nothing is left of the moment before
             return;
         }
         world_ = &world;
-        bool changed = false;
-        for (std::size_t i = 0; i < meshes_.size(); ++i) {
-            mesh_changed_[i] = meshes_[i].update(world, world.meshes[i]);
+        GeometryRevisions now = geometry_revisions_of(world);
+        if (now == followed_) return;
+        followed_ = std::move(now);
+        // The older of the two moments becomes the present one.
+        present_ = 1 - present_;
+        if (snapshots_[present_]) {
+            snapshots_[present_]->follow(world);
+        } else {
+            snapshots_[present_] = take_snapshot(world);
         }
-        for (std::uint32_t i = 0; i < instances_.size(); ++i) {
-            if (!mesh_changed_[world.instances[i].mesh] &&
-                instances_[i].revision == world.instances[i].revision) {
-                continue;
-            }
-            place_instance(i);
-            changed = true;
-        }
-        if (changed) rtcCommitScene(top_.get());
+        ++revision_;
         check_embree(device_.get(), "updating the scene");
     }
+
+    std::uint64_t geometry_revision() const override { return revision_; }
 
     std::optional<Hit> trace_closest(const RayRecord& ray, const CoverageKey& key,
                                      BackFaces back_faces) const override {
         if (classify_ray(ray) != RayState::TRACEABLE) return std::nullopt;
-        QueryContext query = make_query(ray, key);
+        QueryContext query = make_query(ray, key, snapshot_at(Moment::PRESENT));
         if (back_faces == BackFaces::PASS) query.embree.filter = filter_back_faces;
         RTCRayHit ray_hit;
         fill_ray(ray_hit.ray, ray);
         ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         ray_hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-        rtcIntersect1(top_.get(), &query.embree, &ray_hit);
+        rtcIntersect1(query.snapshot->scene(), &query.embree, &ray_hit);
         if (ray_hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
         return Hit{ray_hit.hit.instID[0], ray_hit.hit.primID, glm::vec2(ray_hit.hit.u, ray_hit.hit.v),
                    ray_hit.ray.tfar};
     }
 
   private:
-    struct PlacedInstance {
-        EmbreeGeometry geometry;
-        std::optional<EmbreeMesh> flattened;
-        std::uint64_t revision = 0;
-    };
-
-    bool is_unoccluded(const RayRecord& ray, const CoverageKey& key) const override {
-        QueryContext query = make_query(ray, key);
+    bool is_unoccluded(const RayRecord& ray, const CoverageKey& key, Moment moment) const override {
+        QueryContext query = make_query(ray, key, snapshot_at(moment));
         RTCRay shadow;
         fill_ray(shadow, ray);
-        rtcOccluded1(top_.get(), &query.embree, &shadow);
+        rtcOccluded1(query.snapshot->scene(), &query.embree, &shadow);
         return shadow.tfar >= 0.0f;  // Embree answers with -infinity
     }
 
-    QueryContext make_query(const RayRecord& ray, const CoverageKey& key) const {
+    const EmbreeSnapshot& snapshot_at(Moment moment) const {
+        return *snapshots_[moment == Moment::PRESENT ? present_ : 1 - present_];
+    }
+
+    QueryContext make_query(const RayRecord& ray, const CoverageKey& key,
+                            const EmbreeSnapshot& snapshot) const {
         QueryContext query;
         rtcInitIntersectContext(&query.embree);
         query.world = world_;
+        query.snapshot = &snapshot;
         query.key = key;
         query.pixel = ray.pixel;
         return query;
     }
 
+    // Whether the meshes that Embree reads in place are where they were.
+    bool has_same_memory(const World& world) const {
+        return world.vertex_rows.data() == vertices_ && world.triangles.data() == triangles_ &&
+               world.meshes.size() == static_meshes_.size() &&
+               world.instances.size() == followed_.instances.size();
+    }
+
     void rebuild(const World& world) {
         world_ = &world;
-        top_.reset(rtcNewScene(device_.get()));
-        rtcSetSceneFlags(top_.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION |
-                                         RTC_SCENE_FLAG_DYNAMIC);
-        instances_.clear();
-        meshes_.clear();
-        filtered_.assign(world.meshes.size(), false);
+        vertices_ = world.vertex_rows.data();
+        triangles_ = world.triangles.data();
+        followed_ = geometry_revisions_of(world);
+        snapshots_ = {};
+        is_filtered_.assign(world.meshes.size(), false);
         for (std::uint32_t i = 0; i < world.instances.size(); ++i) {
-            if (has_alpha_test(world.flags_of(i))) filtered_[world.instances[i].mesh] = true;
+            if (has_alpha_test(world.flags_of(i))) is_filtered_[world.instances[i].mesh] = true;
         }
-        meshes_.reserve(world.meshes.size());
+        static_meshes_.clear();
         for (std::size_t i = 0; i < world.meshes.size(); ++i) {
-            meshes_.emplace_back(device_.get(), world, world.meshes[i], filter_of(std::uint32_t(i)));
+            const WorldMesh& mesh = world.meshes[i];
+            static_meshes_.push_back(mesh.deforms ? nullptr
+                                                  : std::make_unique<EmbreeMesh>(
+                                                        device_.get(), world, mesh,
+                                                        is_filtered_[i] ? filter_coverage : nullptr));
         }
-        mesh_changed_.assign(world.meshes.size(), false);
-        instances_.resize(world.instances.size());
-        for (std::uint32_t i = 0; i < instances_.size(); ++i) {
-            instances_[i].geometry.reset(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE));
-            rtcAttachGeometryByID(top_.get(), instances_[i].geometry.get(), i);
-            place_instance(i);
-        }
-        rtcCommitScene(top_.get());
+        snapshots_[present_] = take_snapshot(world);
         check_embree(device_.get(), "building the scene");
     }
 
-    RTCFilterFunctionN filter_of(std::uint32_t mesh) const {
-        return filtered_[mesh] ? filter_coverage : nullptr;
-    }
-
-    void place_instance(std::uint32_t index) {
-        const WorldInstance& source = world_->instances[index];
-        PlacedInstance& placed = instances_[index];
-        glm::mat4 transform = source.world_from_object;
-        RTCScene scene = meshes_[source.mesh].scene();
-        if (!is_invertible(transform)) {
-            placed.flattened.emplace(device_.get(), *world_, source, filter_of(source.mesh));
-            scene = placed.flattened->scene();
-            transform = glm::mat4(1.0f);
-        }
-        rtcSetGeometryInstancedScene(placed.geometry.get(), scene);
-        rtcSetGeometryTransform(placed.geometry.get(), 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &transform[0][0]);
-        rtcCommitGeometry(placed.geometry.get());
-        placed.revision = source.revision;
+    std::unique_ptr<EmbreeSnapshot> take_snapshot(const World& world) const {
+        return std::make_unique<EmbreeSnapshot>(device_.get(), world, static_meshes_, is_filtered_,
+                                                filter_coverage);
     }
 
     const World* world_ = nullptr;
+    const void* vertices_ = nullptr;
+    const void* triangles_ = nullptr;
+    GeometryRevisions followed_;
+    std::uint64_t revision_ = 0;
     EmbreeDevice device_;
-    std::vector<EmbreeMesh> meshes_;
-    std::vector<bool> filtered_;      // per mesh: some instance has an alpha test
-    std::vector<bool> mesh_changed_;  // per mesh: in the update under way
-    std::vector<PlacedInstance> instances_;
-    EmbreeScene top_;
+    std::vector<bool> is_filtered_;  // per mesh: some instance has an alpha test
+    StaticMeshes static_meshes_;
+    std::array<std::unique_ptr<EmbreeSnapshot>, 2> snapshots_;  // the second once something moves
+    std::size_t present_ = 0;
 };
 
 }  // namespace

@@ -19,9 +19,9 @@ constexpr std::size_t RAYS_PER_TASK = 512;
 
 }  // namespace
 
-bool RayTracer::is_visible(const RayRecord& ray, const CoverageKey& key) const {
+bool RayTracer::is_visible(const RayRecord& ray, const CoverageKey& key, Moment moment) const {
     const RayState state = classify_ray(ray);
-    return state == RayState::TRACEABLE ? is_unoccluded(ray, key) : state == RayState::INACTIVE;
+    return state == RayState::TRACEABLE ? is_unoccluded(ray, key, moment) : state == RayState::INACTIVE;
 }
 
 namespace {
@@ -65,12 +65,23 @@ glm::uvec4 sky_sample_row(const World& world, const glm::vec3& direction) {
 }  // namespace
 
 RayBatchResult RayTracer::trace_visibility(std::span<const glm::uvec4> ray_rows, std::span<float> visibility,
-                                           const CoverageKey& key) const {
+                                           const CoverageKey& key, const PreviousRays& previous) const {
     TARN_ASSERT(ray_rows.size() == visibility.size() * RAY_ROWS, "{} ray rows for {} answers",
                 ray_rows.size(), visibility.size());
-    return for_each_ray(ray_rows, [&](const RayRecord& ray, RayState state, std::size_t i) {
-        const bool visible =
-            state == RayState::TRACEABLE ? is_unoccluded(ray, key) : state == RayState::INACTIVE;
+    // Where nothing changed since, the last frame's geometry is the present one.
+    const Moment previous_moment =
+        previous.geometry_revision == geometry_revision() ? Moment::PRESENT : Moment::PREVIOUS;
+    const bool remembered = remembers(previous.geometry_revision);
+    return for_each_ray(ray_rows, [&](RayRecord ray, RayState state, std::size_t i) {
+        bool visible = state == RayState::INACTIVE;
+        if (state == RayState::TRACEABLE && (ray.pixel & RAY_PREVIOUS) != 0u) {
+            TARN_ASSERT(remembered, "rays of geometry {}, the tracer is at {}", previous.geometry_revision,
+                        geometry_revision());
+            ray.pixel &= ~RAY_PREVIOUS;
+            visible = is_unoccluded(ray, previous.key, previous_moment);
+        } else if (state == RayState::TRACEABLE) {
+            visible = is_unoccluded(ray, key, Moment::PRESENT);
+        }
         visibility[i] = visible ? 1.0f : 0.0f;
     });
 }

@@ -28,12 +28,14 @@ inline bool has_alpha_test(std::uint32_t flags) {
     return (flags & (MATERIAL_ALPHA_MASK | MATERIAL_ALPHA_BLEND)) != 0u;
 }
 
-// Whether a ray of `pixel` meets the surface there, or passes through its alpha.
-inline bool is_hit_covered(const World& world, const CoverageKey& key, std::uint32_t pixel,
-                           std::uint32_t instance, std::uint32_t primitive, const glm::vec2& barycentrics) {
+// Whether a ray of `pixel` meets the surface there, or passes through its alpha. `material_rows`: those of the
+// moment that the ray belongs to.
+inline bool is_hit_covered(const World& world, std::span<const glm::uvec4> material_rows,
+                           const CoverageKey& key, std::uint32_t pixel, std::uint32_t instance,
+                           std::uint32_t primitive, const glm::vec2& barycentrics) {
     const std::uint32_t flags = world.flags_of(instance);
     if (!has_alpha_test(flags)) return true;
-    SceneAccess access(world);
+    SceneAccess access(world, material_rows);
     const MaterialRecord material = access.load_material(world.material_of(instance));
     const float opacity = access.load_opacity(instance, primitive, barycentrics);
     const float u = random_coverage(RandomKey{pixel, key.frame, key.seed}, key.ray, instance, primitive);

@@ -31,6 +31,16 @@ struct CoverageKey {
 // (glTF 2.0, 3.9.6); all other rays meet them.
 enum class BackFaces { HIT, PASS };
 
+// Whose geometry a ray meets: the world's as of the latest update, or as it was before the latest update that
+// changed it.
+enum class Moment { PRESENT, PREVIOUS };
+
+// How rays of a batch that are flagged RAY_PREVIOUS are answered: as the last frame would have answered them.
+struct PreviousRays {
+    std::uint64_t geometry_revision = 0;  // RayTracer::geometry_revision of that frame
+    CoverageKey key;                      // and what decided coverage in it
+};
+
 struct RayBatchResult {
     std::uint64_t traced = 0;
     std::uint64_t rejected =
@@ -41,22 +51,33 @@ class RayTracer {
   public:
     virtual ~RayTracer() = default;
 
-    // Follows the world: rebuilds meshes that deformed, moves instances. Must be called after the world
-    // changed and before the next ray. `world` must outlive the tracer.
+    // Follows the world: rebuilds meshes that deformed, moves instances, takes over materials. Must be called
+    // after the world changed and before the next ray, best once a frame: the geometry before the latest
+    // change is kept for rays of the last frame, no older one. `world` must outlive the tracer.
     virtual void update(const World& world) = 0;
+
+    // Grows with each update that changed what rays meet.
+    virtual std::uint64_t geometry_revision() const = 0;
+
+    // Whether rays can still be asked of the geometry of that revision: the present one and the one before.
+    bool remembers(std::uint64_t geometry_revision) const {
+        return geometry_revision <= this->geometry_revision() &&
+               geometry_revision + 1 >= this->geometry_revision();
+    }
 
     // The nearest covered hit in (0, max_t), if any. Thread-safe.
     virtual std::optional<Hit> trace_closest(const RayRecord& ray, const CoverageKey& key,
                                              BackFaces back_faces = BackFaces::HIT) const = 0;
 
     // Whether nothing covers (0, max_t). Inactive rays are visible, rejected ones are not. Thread-safe.
-    bool is_visible(const RayRecord& ray, const CoverageKey& key) const;
+    bool is_visible(const RayRecord& ray, const CoverageKey& key, Moment moment = Moment::PRESENT) const;
 
     // Traces a batch on the worker threads: `ray_rows` holds RAY_ROWS rows a ray, `visibility` gets 1
     // (nothing in the way, or inactive ray) or 0 a ray. Both may be memory that GL shares. Same answers for
-    // any number of threads.
+    // any number of threads. Rays flagged RAY_PREVIOUS are answered by `previous`, whose geometry the tracer
+    // must remember.
     RayBatchResult trace_visibility(std::span<const glm::uvec4> ray_rows, std::span<float> visibility,
-                                    const CoverageKey& key) const;
+                                    const CoverageKey& key, const PreviousRays& previous = {}) const;
 
     // Where rays end, as light samples: traces a batch on the worker threads, `ray_rows` as above;
     // `sample_rows` gets one row a ray: (light, uv as bits, 0), light being an index of `world.lights`,
@@ -67,7 +88,7 @@ class RayTracer {
 
   private:
     // The same for a ray that was checked: finite, with a direction, and active.
-    virtual bool is_unoccluded(const RayRecord& ray, const CoverageKey& key) const = 0;
+    virtual bool is_unoccluded(const RayRecord& ray, const CoverageKey& key, Moment moment) const = 0;
 };
 
 // Worker threads for ray tracing and the reference: at most `threads` for the life of this object (0: one per
@@ -84,7 +105,9 @@ class WorkerLimit {
     std::unique_ptr<State> state_;
 };
 
-// Embree 3, two-level: one BVH per mesh, instances on top. Throws Error when Embree fails.
+// Embree 3, two-level: one BVH per mesh, instances on top. Where things move, a second top level (and a second
+// BVH of each mesh that deforms) holds the geometry of the moment before; what never moves is there once.
+// Throws Error when Embree fails.
 std::unique_ptr<RayTracer> create_embree_tracer(const World& world);
 
 // The ray tracing library and its version, such as "3.13.5".

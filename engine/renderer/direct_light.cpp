@@ -23,6 +23,14 @@ std::vector<glm::vec3> targets_of(const DirectSettings& settings) {
 
 }  // namespace
 
+DirectLight::Meaning::Meaning(const DirectFrame& direct)
+    : target_weights(direct.target_weights),
+      mis(direct.settings.mis),
+      traces_in_mis(direct.settings.traces_in_mis()),
+      visibility(direct.settings.visibility),
+      discard_occluded(direct.settings.discard_occluded),
+      filters_boiling(direct.settings.boiling_filter > 0.0) {}
+
 DirectLight::Lane::Lane(int width_px, int height_px)
     : reservoirs([=] { return make_reservoirs("direct/reservoirs", width_px, height_px); }) {}
 
@@ -103,6 +111,15 @@ void DirectLight::record_lane(const DirectFrame& direct, std::size_t lane, const
     shade_.record(direct, chosen, seen, first);
 }
 
+// Whether the lane holds what the last frame found by this frame's rules. Other methods may have run since; and the
+// tracer may have forgotten the geometry that the weights would ask for.
+bool DirectLight::has_past(const DirectFrame& direct, const Lane& lane) {
+    if (!direct.last_frame || lane.frame != direct.last_frame->key.frame) return false;
+    if (lane.meaning != Meaning(direct)) return false;
+    return !direct.settings.traces_in_mis() ||
+           direct.tracer.remembers(direct.last_frame->geometry_revision);
+}
+
 // The steps of reuse in turn. The last one writes the rays that test its samples; the last that feeds the
 // history writes what the next frame will find.
 const RowBuffer& DirectLight::reuse(const DirectFrame& direct, Lane& lane, const Candidates& fresh) {
@@ -114,7 +131,8 @@ const RowBuffer& DirectLight::reuse(const DirectFrame& direct, Lane& lane, const
     if (settings.reuses_time()) {
         const bool last = spatial_steps == 0;
         const RowBuffer& out = last || !settings.feedback ? kept : scratch_[0];
-        temporal_.record(direct, {*in, out, last ? last_rays : nullptr}, lane.reservoirs.previous());
+        temporal_.record(direct, {*in, out, last ? last_rays : nullptr}, lane.reservoirs.previous(),
+                         has_past(direct, lane));
         if (settings.boiling_filter > 0.0) boiling_filter_.record(direct, out);
         in = &out;
     }
@@ -127,6 +145,8 @@ const RowBuffer& DirectLight::reuse(const DirectFrame& direct, Lane& lane, const
         spatial_.record(direct, {*in, out, last ? last_rays : nullptr, lights ? &*light_ : nullptr}, i);
         in = &out;
     }
+    lane.frame = direct.shadow_key.frame;
+    lane.meaning.emplace(direct);
     return *in;
 }
 

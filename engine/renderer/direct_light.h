@@ -38,10 +38,25 @@ class DirectLight {
     Rays take_rays();
 
   private:
-    // What one target keeps from frame to frame.
+    // What a kept sample means: samples of another meaning have other densities.
+    struct Meaning {
+        explicit Meaning(const DirectFrame& direct);
+        bool operator==(const Meaning&) const = default;
+
+        glm::vec3 target_weights;
+        Mis mis;
+        bool traces_in_mis;
+        SampleVisibility visibility;
+        bool discard_occluded;
+        bool filters_boiling;
+    };
+
+    // What one target keeps from frame to frame, and who wrote it.
     struct Lane {
         Lane(int width_px, int height_px);
         History<RowBuffer> reservoirs;
+        std::optional<std::uint32_t> frame;
+        std::optional<Meaning> meaning;
     };
 
     void record_sample(DirectFrame& direct, const World& world, CandidateSources sources);
@@ -49,6 +64,7 @@ class DirectLight {
     CandidateSources find_sources(const DirectFrame& direct, const RowBuffer* light_tree);
     const RowBuffer& trace_brdf(const DirectFrame& direct, const World& world);
     const RowBuffer& reuse(const DirectFrame& direct, Lane& lane, const Candidates& fresh);
+    static bool has_past(const DirectFrame& direct, const Lane& lane);
     const RowBuffer& trace(const DirectFrame& direct, const std::string& name, const Buffer& rays);
 
     int width_px_;

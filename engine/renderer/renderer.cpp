@@ -19,10 +19,11 @@ double scene_diameter(const World& world) {
 }
 
 // Near plane of a perspective camera or depth range of an orthographic one, metres. Depth is reversed and
-// floating, so a near plane at 1e-5 of the scene costs no precision.
+// floating, near / distance: a near plane at 1e-9 of the scene costs no precision, and lets one stand on ground
+// that reaches to the horizon.
 float depth_parameter(const World& world, const CameraRecord& camera) {
     const double diameter = scene_diameter(world);
-    if (!camera.orthographic) return float(1e-5 * diameter);
+    if (!camera.orthographic) return float(1e-9 * diameter);
     const glm::dvec3 centre = world.bounds.empty() ? glm::dvec3(0.0) : world.bounds.centre();
     return float(4.0 * (diameter + glm::length(glm::dvec3(camera.position) - centre)));
 }
@@ -57,7 +58,7 @@ void Renderer::update() {
 // A light may have come or gone, a thing have begun to move, and with it what the shaders need.
 void Renderer::update_plan() {
     const PlanHistory history{world_.is_animated || gpu_scene_.has_moved(),
-                              world_.is_animated || gpu_scene_.lights().have_changed()};
+                              world_.is_animated || gpu_scene_.have_lights_changed()};
     if (world_.lights.order_revision == planned_lights_ && world_.material_revision == planned_materials_ &&
         history == planned_history_)
         return;
@@ -88,10 +89,9 @@ void Renderer::upload_frame_block(const FrameInput& input) {
     block.frame_previous_right = glm::vec4(last_camera_.right, 0.0f);
     block.frame_previous_up = glm::vec4(last_camera_.up, 0.0f);
     block.frame_previous_forward = glm::vec4(last_camera_.forward, 0.0f);
-    const bool follows = has_past_ && input.frame == last_frame_ + 1;
     block.frame_history =
         glm::uvec4(gpu_scene_.previous_first_instance(), gpu_scene_.lights().previous_first_row(),
-                   gpu_scene_.lights().remap_first_row(), follows ? 1u : 0u);
+                   gpu_scene_.lights().remap_first_row(), 0u);
     block.frame_tables = glm::uvec4(gpu_light_tree_.node_count(), 0u, 0u, 0u);
     frame_block_.upload(0, std::span<const FrameBlock>(&block, 1));
     frame_block_.bind_uniform(BLOCK_FRAME);
@@ -106,9 +106,11 @@ FrameOutput Renderer::render(const FrameInput& input) {
     gpu_scene_.bind();
 
     const GBuffer gbuffer = gbuffer_.record(frame_, world_, input.camera, defines_);
-    const Texture2D& radiance = direct_light_.record(
-        {frame_, tracer_, gbuffer, input.settings, glm::vec3(0.0f), counters_, defines_, shadow_key}, world_,
-        gpu_light_tree_.rows());
+    const bool follows = last_frame_ && input.frame == last_frame_->key.frame + 1;
+    const Texture2D& radiance =
+        direct_light_.record({frame_, tracer_, gbuffer, input.settings, glm::vec3(0.0f), counters_, defines_,
+                              shadow_key, follows ? last_frame_ : std::nullopt},
+                             world_, gpu_light_tree_.rows());
 
     const DirectLight::Rays rays = direct_light_.take_rays();
     rejected_rays_ += rays.shadow.rejected;
@@ -123,8 +125,7 @@ void Renderer::advance(const FrameInput& input) {
     gpu_scene_.advance(world_);
     direct_light_.advance();
     last_camera_ = input.camera;
-    last_frame_ = input.frame;
-    has_past_ = true;
+    last_frame_ = PreviousRays{tracer_.geometry_revision(), {input.frame, input.seed, RAY_SHADOW}};
 }
 
 Image Renderer::read_radiance(const Texture2D& radiance) const {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,7 +53,7 @@ class Renderer {
     FrameOutput render(const FrameInput& input);
 
     // Forgets the last frame, as after a cut.
-    void reset_history() { has_past_ = false; }
+    void reset_history() { last_frame_.reset(); }
 
     // Waits and reads a radiance texture back as 3 channels.
     Image read_radiance(const Texture2D& radiance) const;
@@ -91,8 +92,7 @@ class Renderer {
     Buffer counters_;
     GBufferPass gbuffer_;
     DirectLight direct_light_;
-    bool has_past_ = false;  // whether the last frame can be looked back at
-    std::uint32_t last_frame_ = 0;
+    std::optional<PreviousRays> last_frame_;  // which it was; none: there is nothing to look back at
     CameraRecord last_camera_{};
     std::uint64_t rejected_rays_ = 0;
 };

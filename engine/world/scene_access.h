@@ -19,12 +19,15 @@ namespace tarn {
 // A view: keeps a reference to the world, which must outlive it. Safe to use from many threads.
 class SceneAccess {
   public:
-    explicit SceneAccess(const World& world) : world_(world) {}
+    explicit SceneAccess(const World& world) : SceneAccess(world, world.material_rows) {}
+    // With materials of another moment.
+    SceneAccess(const World& world, std::span<const uvec4> material_rows)
+        : world_(world), material_rows_(material_rows) {}
 
     uvec4 fetch_vertex_row(uint row) const { return world_.vertex_rows[row]; }
     uvec3 fetch_triangle(uint triangle) const { return world_.triangles[triangle]; }
     uvec4 fetch_instance_row(uint row) const { return world_.instance_rows[row]; }
-    uvec4 fetch_material_row(uint row) const { return world_.material_rows[row]; }
+    uvec4 fetch_material_row(uint row) const { return material_rows_[row]; }
     vec4 fetch_texel(uint texel) const { return vec4(world_.texels[texel]) * (1.0f / 65535.0f); }
     uvec4 fetch_light_row(uint row) const { return world_.lights.rows[row]; }
     uvec4 fetch_light_alias_row(uint row) const { return world_.lights.alias_rows[row]; }
@@ -51,6 +54,7 @@ class SceneAccess {
 
   private:
     const World& world_;
+    std::span<const uvec4> material_rows_;
 };
 
 }  // namespace tarn

@@ -5,8 +5,6 @@
 
 layout(binding = UNIT_PREVIOUS_SURFACE) uniform sampler2DArray previous_layers;
 
-bool has_past() { return frame_history.w != 0u; }
-
 CameraRecord previous_camera() {
     return unpack_camera(frame_previous_position, frame_previous_right, frame_previous_up, frame_previous_forward);
 }
@@ -62,27 +60,27 @@ uint remap_light(uint light, bool to_past) {
     return to_past ? row.x : row.y;
 }
 
+// As the last frame knew it: the light's instance is the last frame's, with its vertices and its material, and its
+// emission map follows the last frame's rows.
 Light load_previous_light(uint light) {
     uint row = frame_history.y + light * LIGHT_ROWS;
-    return unpack_light(fetch_light_row(row), fetch_light_row(row + 1u), fetch_light_row(row + 2u),
-                        fetch_light_row(row + 3u));
-}
-
-// Radiance at a place of a triangle as it was. Its emission map follows the last frame's rows.
-vec3 load_previous_radiance(Light light, vec2 barycentrics) {
-    if (SCENE_HAS_TEXTURED_LIGHTS && (light.flags & LIGHT_TEXTURED) != 0u) {
-        light.range = uintBitsToFloat(floatBitsToUint(light.range) + frame_history.y);
+    Light previous = unpack_light(fetch_light_row(row), fetch_light_row(row + 1u), fetch_light_row(row + 2u),
+                                  fetch_light_row(row + 3u));
+    previous.instance += frame_history.x;
+    if (SCENE_HAS_TEXTURED_LIGHTS && is_triangle(previous) && (previous.flags & LIGHT_TEXTURED) != 0u) {
+        previous.range = uintBitsToFloat(floatBitsToUint(previous.range) + frame_history.y);
     }
-    return load_triangle_radiance(light, barycentrics);
+    return previous;
 }
 
 IncidentLight load_previous_incident_light(LightSample drawn, vec3 point) {
     if (!is_in_light_table(drawn)) return load_incident_light(drawn, point);
-    Light light = load_previous_light(drawn.light);
-    if (is_triangle(light)) {
-        return incident_from_triangle(light, drawn.uv, load_previous_radiance(light, drawn.uv), point);
-    }
-    return incident_from_punctual(light, point);
+    return incident_from_light(load_previous_light(drawn.light), drawn.uv, point);
+}
+
+float load_previous_light_error(LightSample drawn) {
+    if (!is_in_light_table(drawn)) return 0.0f;
+    return light_error(load_previous_light(drawn.light));
 }
 
 // A sample of this frame as the last one would have known it, and back; no sample where the light was not, or is no
@@ -106,6 +104,7 @@ float shift_jacobian(LightSample present, LightSample past) {
 }
 #else
 IncidentLight load_previous_incident_light(LightSample drawn, vec3 point) { return load_incident_light(drawn, point); }
+float load_previous_light_error(LightSample drawn) { return load_light_error(drawn); }
 LightSample move_to_past(LightSample drawn) { return drawn; }
 LightSample move_to_present(LightSample drawn) { return drawn; }
 float shift_jacobian(LightSample present, LightSample past) { return 1.0f; }

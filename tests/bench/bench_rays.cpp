@@ -34,6 +34,7 @@ constexpr double REQUIRED_SHARE = 0.9;
 class RayCollector : public RayTracer {
   public:
     void update(const World&) override {}
+    std::uint64_t geometry_revision() const override { return 0; }
     std::optional<Hit> trace_closest(const RayRecord&, const CoverageKey&, BackFaces) const override {
         return std::nullopt;
     }
@@ -47,7 +48,7 @@ class RayCollector : public RayTracer {
     }
 
   private:
-    bool is_unoccluded(const RayRecord& ray, const CoverageKey&) const override {
+    bool is_unoccluded(const RayRecord& ray, const CoverageKey&, Moment) const override {
         rays_[ray.pixel] = ray;
         return true;
     }

@@ -310,6 +310,7 @@ TEST(Rays, ties_between_coincident_triangles_do_not_depend_on_the_number_of_thre
 
 TEST(Rays, updates_follow_deformed_meshes_and_moved_instances) {
     World world = make_soup(false);
+    world.meshes[1].deforms = true;
     const auto embree = create_embree_tracer(world);
     Rng rng(23);
     for (int step = 0; step < 3; ++step) {

@@ -74,8 +74,8 @@ class BareEmbree {
         const BareEmbree& self = *reinterpret_cast<const Context*>(arguments->context)->self;
         const RTCHit& hit = *reinterpret_cast<const RTCHit*>(arguments->hit);
         const RTCRay& ray = *reinterpret_cast<const RTCRay*>(arguments->ray);
-        const bool covered = is_hit_covered(self.world_, self.key_, ray.id, hit.instID[0], hit.primID,
-                                            glm::vec2(hit.u, hit.v));
+        const bool covered = is_hit_covered(self.world_, self.world_.material_rows, self.key_, ray.id,
+                                            hit.instID[0], hit.primID, glm::vec2(hit.u, hit.v));
         if (!covered) arguments->valid[0] = 0;
     }
 

@@ -105,9 +105,9 @@ std::optional<Hit> RayCapture::trace_closest(const RayRecord& ray, const Coverag
     return tracer_.trace_closest(ray, key, back_faces);
 }
 
-bool RayCapture::is_unoccluded(const RayRecord& ray, const CoverageKey& key) const {
+bool RayCapture::is_unoccluded(const RayRecord& ray, const CoverageKey& key, Moment moment) const {
     threads_->rays.local().push_back(ray);
-    return tracer_.is_visible(ray, key);
+    return tracer_.is_visible(ray, key, moment);
 }
 
 std::vector<RayRecord> RayCapture::take_rays() {

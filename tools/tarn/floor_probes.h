@@ -20,6 +20,7 @@ class RayCapture : public RayTracer {
     ~RayCapture() override;
 
     void update(const World&) override {}
+    std::uint64_t geometry_revision() const override { return tracer_.geometry_revision(); }
     std::optional<Hit> trace_closest(const RayRecord& ray, const CoverageKey& key,
                                      BackFaces back_faces) const override;
 
@@ -27,7 +28,7 @@ class RayCapture : public RayTracer {
     std::vector<RayRecord> take_rays();
 
   private:
-    bool is_unoccluded(const RayRecord& ray, const CoverageKey& key) const override;
+    bool is_unoccluded(const RayRecord& ray, const CoverageKey& key, Moment moment) const override;
 
     struct Threads;
     const RayTracer& tracer_;

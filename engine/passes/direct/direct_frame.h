@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct DirectFrame {
     const Buffer& counters;
     std::vector<std::string> defines;  // what the scene needs (plan/frame_plan.h)
     CoverageKey shadow_key;
+    std::optional<PreviousRays> last_frame;  // how its rays were answered; none: this frame has no past
     std::uint32_t sample = 0;  // which of the frame's samples of each pixel
 };
 

@@ -96,7 +96,7 @@ void ReuseStep::record(const DirectFrame& direct, const std::string& path, std::
             write_rays(direct, path, band, io, bind);
             const std::size_t count = std::size_t(band.end - begin) * std::size_t(width_px_) * rays_per_pixel;
             visibility_->record(direct.frame, path + "_visibility", direct.tracer, *rays_, count,
-                                direct.shadow_key);
+                                direct.shadow_key, direct.last_frame.value_or(PreviousRays{}));
             result_.traced += visibility_->result().traced;
             result_.rejected += visibility_->result().rejected;
         }

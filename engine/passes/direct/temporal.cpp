@@ -4,11 +4,13 @@
 
 namespace tarn {
 
-void TemporalPass::record(const DirectFrame& direct, const ReuseStep::Io& io, const Past<RowBuffer>& past) {
+void TemporalPass::record(const DirectFrame& direct, const ReuseStep::Io& io, const Past<RowBuffer>& past,
+                          bool has_past) {
     const DirectSettings& settings = direct.settings;
     // One ray each way (RAY_HERE, RAY_THERE in the shader).
-    const std::uint32_t rays = settings.traces_in_mis() ? 2 : 0;
+    const std::uint32_t rays = has_past && settings.traces_in_mis() ? 2 : 0;
     step_.record(direct, "direct/temporal", rays, io, [&](PassRecorder& pass, const Program& program) {
+        program.set("has_past", has_past ? 1u : 0u);
         program.set("confidence_cap", float(settings.confidence_cap));
         program.set("age_cap", float(settings.age_cap));
         program.set("permute", settings.permute ? 1u : 0u);

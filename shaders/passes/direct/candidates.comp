@@ -57,12 +57,26 @@ struct Stream {
     LiveReservoir live;
 };
 
-// Density of a sample under the BRDF, in the measure of its light; 0 for lights that no ray can meet.
+// Share of rays that meet the light at `drawn`, a sample on a light of the table.
+float sample_coverage(LightSample drawn) {
+    float coverage = 1.0f;
+#ifndef TARN_PLANT_FORGET_COVERAGE
+    // A loop that runs at most once, as in load_triangle_radiance.
+    Light light = load_light(drawn.light);
+    uint covered = SCENE_HAS_COVERED_LIGHTS ? light.flags & LIGHT_COVERED : 0u;
+    for (; covered != 0u; covered = 0u) coverage = load_light_coverage(light, drawn.uv);
+#endif
+    return coverage;
+}
+
+// Density of a sample under the BRDF, in the measure of its light; 0 for lights that no ray can meet. Of the rays that
+// arrive there only the covered share ends on the light.
 float brdf_pdf(Stream s, LightSample drawn, IncidentLight incident) {
 #ifdef TARN_BRDF_CANDIDATE
     float pdf = pdf_brdf_solid_angle(s.receiver.point.material, s.receiver.view_local,
                                      to_local(s.receiver.frame, incident.direction));
     if (incident.distance >= RAY_INFINITY) return drawn.light == LIGHT_ENVIRONMENT ? pdf : 0.0f;
+    pdf *= sample_coverage(drawn);
     return pdf * max(dot(incident.light_normal, -incident.direction), 0.0f) / (incident.distance * incident.distance);
 #else
     return 0.0f;
@@ -118,13 +132,14 @@ void offer_all(inout Stream s) {
     }
 }
 #else
-// How many candidates go to the sky: its share, rounded up or down at random, alike for all pixels of a frame. Each
-// kind of light has a loop of its own, since a software GPU runs both sides of a branch.
-uint sky_candidate_count() {
-    RandomKey key;
+// How many candidates go to the sky: its share, rounded up or down at random, pixel by pixel: one decision for a whole
+// frame would make the frame all sky or none where there is one candidate. Each kind of light has a loop of its own,
+// since a software GPU runs both sides of a branch.
+uint sky_candidate_count(Stream s) {
+    RandomKey key = s.key;
+#ifdef TARN_PLANT_SKY_PER_FRAME
     key.pixel = 0u;
-    key.frame = frame_size.z;
-    key.seed = frame_size.w;
+#endif
     float shift = random4(key, sample_dimension(DIMENSION_SELECT)).x;
     return min(candidate_count, uint(floor(float(candidate_count) * environment_probability() + shift)));
 }
@@ -149,7 +164,7 @@ void offer_light(inout Stream s, uint i, float share) {
 
 void offer_all(inout Stream s) {
     float share = environment_probability();
-    uint sky_count = SCENE_HAS_ENVIRONMENT ? sky_candidate_count() : 0u;
+    uint sky_count = SCENE_HAS_ENVIRONMENT ? sky_candidate_count(s) : 0u;
     if (SCENE_HAS_ENVIRONMENT) {
         for (uint i = 0u; i < sky_count; ++i) {
             LightCandidate c = draw_environment(random_bits4(s.key, sample_dimension(DIMENSION_CANDIDATE + i)));
@@ -197,7 +212,7 @@ void main() {
     confidence += 1.0f;
 #endif
     Reservoir reservoir = finish_reservoir(s.live, confidence);
-    if (s.live.weight_sum > 0.0f && reservoir.contribution_weight == 0.0f) count_event(COUNTER_BAD_RESERVOIR);
+    if (has_overflown(s.live)) count_event(COUNTER_BAD_RESERVOIR);
     RayRecord ray = inactive_ray();
     if (reservoir.contribution_weight > 0.0f) ray = sample_ray(s.receiver, reservoir.chosen, s.pixel);
     store(pixel_index(s.pixel), reservoir, ray);

@@ -16,6 +16,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = UNIT_PASS_C) uniform usamplerBuffer past_reservoirs;
 
+uniform uint has_past;         // 0: the last frame left nothing that this one can use
 uniform float confidence_cap;  // of the past, as a multiple of the fresh sample's
 uniform float age_cap;         // frames after which a sample is dropped; 0: never
 uniform uint permute;          // 1: neighbours of a pixel swap their histories
@@ -32,7 +33,7 @@ struct Pair {
     Reservoir past;          // its sample moved to the present
     float past_jacobian;     // of that move
     LightSample fresh_there;  // the fresh sample moved to the past
-    float fresh_jacobian;     // of the move back
+    float fresh_jacobian;     // of the same move, at the fresh sample: from fresh_there to the present
 };
 
 // Pixels of a 4 x 4 block trade places, alike for all pixels of a frame: reuse of the very same sample by neighbours
@@ -70,7 +71,7 @@ bool find_past_pixel(ivec2 pixel, Receiver here, out ivec2 found) {
     Look expected = look_of(here.point);
     expected.position = previous_position(pixel);
     found = project_to_previous(expected.position);
-    if (!has_past() || found.x < 0) return false;
+    if (has_past == 0u || found.x < 0) return false;
     if (permute != 0u) {
         ivec2 moved = permuted(found);
         found = is_inside(moved) ? moved : found;
@@ -124,11 +125,21 @@ Pair make_pair(Receiver here, Reservoir fresh, ivec2 there_pixel) {
     if (p.past.chosen.light == INVALID_INDEX) p.past.contribution_weight = 0.0f;
     p.fresh_there = move_to_past(fresh.chosen);
     p.fresh_jacobian = shift_jacobian(fresh.chosen, p.fresh_there);
+#ifdef TARN_PLANT_DROP_PAST_JACOBIAN
+    p.past_jacobian = 1.0f;
+#endif
+#ifdef TARN_PLANT_DROP_FRESH_JACOBIAN
+    p.fresh_jacobian = 1.0f;
+#endif
     return p;
 }
 
-float target_there(Pair p, LightSample drawn_there) {
-    return target_at(p.there, load_previous_incident_light(drawn_there, p.there.point.position));
+// The past technique's density at the fresh sample, moved into the present: its target there over the Jacobian of the
+// move.
+float there_at_fresh(Pair p) {
+    if (p.fresh_there.light == INVALID_INDEX) return 0.0f;
+    IncidentLight incident = load_previous_incident_light(p.fresh_there, p.there.point.position);
+    return ratio_or_zero(target_at(p.there, incident), p.fresh_jacobian);
 }
 
 // Weights m of the two samples. Targets: [who][whose sample], visibility included where the mode asks.
@@ -176,9 +187,8 @@ Reservoir merge(Pair p, ivec2 pixel) {
     bool has_past_sample = p.past.contribution_weight > 0.0f;
     float here_fresh = has_fresh ? p.fresh.target : 0.0f;
     float here_past = has_past_sample ? sample_target(p.here, p.past.chosen) : 0.0f;
-    float there_fresh = target_there(p, p.fresh_there) ;
+    float there_fresh = has_fresh ? there_at_fresh(p) : 0.0f;
     float there_past = has_past_sample ? ratio_or_zero(p.past.target, p.past_jacobian) : 0.0f;
-    if (!has_fresh || p.fresh_there.light == INVALID_INDEX) there_fresh = 0.0f;
     if (MIS_VISIBILITY) {
         here_past *= load_answer(pixel, RAY_HERE);
         there_fresh *= load_answer(pixel, RAY_THERE);
@@ -210,11 +220,14 @@ void write_rays(Pair p, ivec2 pixel) {
     RayRecord from_there = inactive_ray();
     if (p.past.contribution_weight > 0.0f) from_here = sample_ray(p.here, p.past.chosen, pixel);
     if (p.fresh.contribution_weight > 0.0f && p.fresh_there.light != INVALID_INDEX) {
-        // Towards where the light was, past what is there now: the last frame's geometry is gone.
+        // A ray of the last frame: to where the light was, past what stood in its way then.
         IncidentLight incident = load_previous_incident_light(p.fresh_there, p.there.point.position);
         if (max_component(incident.value) > 0.0f) {
-            from_there =
-                make_shadow_ray(p.there.point, incident, load_light_error(p.fresh.chosen), pixel_index(p.there_pixel));
+            from_there = make_shadow_ray(p.there.point, incident, load_previous_light_error(p.fresh_there),
+                                         pixel_index(p.there_pixel));
+#ifndef TARN_PLANT_PRESENT_GEOMETRY
+            from_there.pixel |= RAY_PREVIOUS;
+#endif
         }
     }
     store_ray(pixel, RAY_HERE, from_here);

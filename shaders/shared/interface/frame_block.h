@@ -22,8 +22,7 @@ struct FrameBlock {
     vec4 frame_previous_up;
     vec4 frame_previous_forward;
     uvec4 frame_history;  // first previous instance; first row of the previous lights; first row of the light
-                          // remap or INVALID_INDEX where every light kept its index; 1 where there is a last
-                          // frame
+                          // remap or INVALID_INDEX where every light kept its index; 0
     uvec4 frame_tables;   // nodes of the light tree
 };
 

@@ -138,12 +138,14 @@ FN void pack_slot(SlotRecord r, OUT(uvec4) row0, OUT(uvec4) row1) {
 // --------------------------------------------------------------------
 
 CONSTANT uint RAY_ROWS = 2u;
+// Flag in `pixel`: a ray of the last frame. It meets that frame's geometry, by that frame's coverage.
+CONSTANT uint RAY_PREVIOUS = 0x80000000u;
 
 struct RayRecord {
     vec3 origin;     // relative to the world's origin
     float max_t;     // in units of |direction|; negative: an inactive ray, answered "visible" without tracing
     vec3 direction;  // any length but 0
-    uint pixel;      // for the random numbers of partial coverage
+    uint pixel;      // for the random numbers of partial coverage; may carry RAY_PREVIOUS
 };
 
 FN RayRecord inactive_ray() {

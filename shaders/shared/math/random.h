@@ -59,7 +59,7 @@ FN float random_coverage(RandomKey key, uint ray, uint instance, uint primitive)
 }
 
 // Dimensions: each use has a range of its own, so that no two decisions share a number.
-CONSTANT uint DIMENSION_SELECT = 0u;       // direct light: once a frame
+CONSTANT uint DIMENSION_SELECT = 0u;       // direct light: how many candidates go to the sky
 CONSTANT uint DIMENSION_CANDIDATE = 16u;   // + candidate index, below 1024
 CONSTANT uint DIMENSION_TEMPORAL = 1088u;  // reuse over time: the choice; once a frame: the permutation
 CONSTANT uint DIMENSION_SPATIAL = 1152u;   // + 16 * iteration + neighbour: its place and whether it replaces

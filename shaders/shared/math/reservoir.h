@@ -59,11 +59,16 @@ FN Reservoir empty_reservoir() {
     return r;
 }
 
-// Offers a candidate with resampling weight w = m * target / pdf. `u` in [0, 1). A weight that is 0, negative
-// or not finite is passed over; returns false for the last two, so that the caller can count them.
+// Weights and targets below the least normal float are no light: arithmetic on them loses digits or, where a
+// thread flushes them to 0, everything.
+CONSTANT float LEAST_WEIGHT = 1.17549435e-38f;
+
+// Offers a candidate with resampling weight w = m * target / pdf. `u` in [0, 1). A weight that is 0 or
+// subnormal, negative or not finite is passed over; returns false for the last two, so that the caller can
+// count them.
 FN bool offer_candidate(INOUT(LiveReservoir) r, LightSample candidate, float target, float weight, float u) {
     if (!is_finite(weight) || weight < 0.0f) return false;
-    if (weight == 0.0f) return true;
+    if (weight < LEAST_WEIGHT || target < LEAST_WEIGHT) return true;
     r.weight_sum += weight;
     // By product, not by quotient: no 0/0, and the first candidate is always taken.
     if (u * r.weight_sum < weight) {
@@ -73,13 +78,18 @@ FN bool offer_candidate(INOUT(LiveReservoir) r, LightSample candidate, float tar
     return true;
 }
 
+// Whether W of what was offered leaves float's range.
+FN bool has_overflown(LiveReservoir live) {
+    return !is_finite(ratio_or_zero(live.weight_sum, live.target));
+}
+
 // W = weight_sum / target. `confidence`: candidates seen. A weight that is not finite leaves no sample, but
 // confidence: that many candidates were looked at and it is their sum that was lost.
 FN Reservoir finish_reservoir(LiveReservoir live, float confidence) {
     Reservoir r = empty_reservoir();
     r.confidence = confidence;
     float weight = ratio_or_zero(live.weight_sum, live.target);
-    if (!is_finite(weight) || weight == 0.0f) return r;
+    if (!is_finite(weight) || weight < LEAST_WEIGHT) return r;
     r.chosen = live.chosen;
     r.contribution_weight = weight;
     r.target = live.target;
