@@ -5,7 +5,9 @@
 #include <functional>
 
 #include "core/error.h"
+#include "support/brdf_oracle.h"
 #include "support/reference_run.h"
+#include "world/light_tree.h"
 
 namespace tarn {
 namespace {
@@ -204,19 +206,27 @@ struct Furnace {
 };
 
 // Mean radiance of a plane in a sky of radiance 1, seen at `angle_deg` from its normal by parallel rays.
-Furnace measure_furnace(const Material& material, double angle_deg, LightStrategy strategy,
-                        std::uint64_t spp) {
+// `with_lamps`: two black lamps of radiance 1 hide parts of that sky, about where a mirror would show them.
+Furnace measure_furnace(const Material& material, double angle_deg, ReferenceSettings s,
+                        bool with_lamps = false) {
     ToyScene toy;
     toy.add_quad(toy.add_material(material), {-1, 0, -1}, {0, 0, 2}, {2, 0, 0});
-    const World world = build_world(toy.scene, even_sky(glm::vec3(1.0f)));
+    if (with_lamps) {
+        const MaterialIndex lamp = toy.add_material(emissive_material(glm::vec3(1.0f)));
+        toy.add_quad(lamp, {-2.0f, 1.8f, -1.0f}, {1.0f, 0, 0}, {0, 0, 2.0f});
+        toy.add_quad(lamp, {-3.0f, 0.5f, 0.2f}, {0, 1.0f, 0}, {0, 0, 1.0f});
+    }
+    World world = build_world(toy.scene, even_sky(glm::vec3(1.0f)));
+    update_light_tree(world);
     const double angle = angle_deg * DOUBLE_PI / 180.0;
-    ReferenceSettings s =
+    const auto camera =
         small_settings(world, glm::dvec3(std::sin(angle), std::cos(angle), 0.0), glm::dvec3(0.0), 1.0);
+    s.width = camera.width;
+    s.height = camera.height;
+    s.camera = camera.camera;
     s.camera.orthographic = true;
     s.camera.right *= 0.1f;
     s.camera.up *= 0.1f;
-    s.spp = spp;
-    s.strategy = strategy;
     const ReferenceResult result = run_reference(world, s);
     Furnace furnace;
     double variance = 0.0;
@@ -230,10 +240,17 @@ Furnace measure_furnace(const Material& material, double angle_deg, LightStrateg
     return furnace;
 }
 
+ReferenceSettings furnace_settings(LightStrategy strategy, std::uint64_t spp) {
+    ReferenceSettings s;
+    s.strategy = strategy;
+    s.spp = spp;
+    return s;
+}
+
 TEST(ReferenceClosedForms, lambert_in_a_white_furnace_is_1_within_1e_3) {
     for (const double angle_deg : {0.0, 60.0, 85.0}) {
-        const Furnace furnace =
-            measure_furnace(lambert_material(glm::vec3(1.0f)), angle_deg, LightStrategy::MIS, 1280);
+        const Furnace furnace = measure_furnace(lambert_material(glm::vec3(1.0f)), angle_deg,
+                                                furnace_settings(LightStrategy::MIS, 1280));
         EXPECT_LT(furnace.standard_error, 2.5e-4);
         EXPECT_NEAR(furnace.mean, 1.0, 1e-3) << angle_deg;
     }
@@ -250,7 +267,7 @@ TEST(ReferenceClosedForms, lambert_and_ggx_never_reflect_more_than_arrives) {
                     material.metallic = metallic;
                     material.ior = ior;
                     const Furnace furnace =
-                        measure_furnace(material, angle_deg, LightStrategy::BRDF_ONLY, 128);
+                        measure_furnace(material, angle_deg, furnace_settings(LightStrategy::BRDF_ONLY, 128));
                     brightest = std::max(brightest, furnace.mean);
                     ASSERT_LE(furnace.mean - 3.0 * furnace.standard_error, 1.0 + 1e-3)
                         << roughness << " " << metallic << " " << ior << " " << angle_deg;
@@ -259,6 +276,47 @@ TEST(ReferenceClosedForms, lambert_and_ggx_never_reflect_more_than_arrives) {
         }
     }
     EXPECT_GT(brightest, 0.99);
+}
+
+// What a surface of these parameters reflects of radiance 1 from everywhere, by quadrature in double
+// precision.
+double integrate_reflectance(const Material& material, double angle_deg) {
+    const double root = (material.ior - 1.0) / (material.ior + 1.0), metallic = material.metallic;
+    const double f0 = root * root * (1.0 - metallic) + double(material.base_color.x) * metallic;
+    const double albedo = double(material.base_color.x) * (1.0 - metallic);
+    const double alpha = double(material.roughness) * material.roughness;
+    const glm::dvec3 view = test::view_at(angle_deg);
+    return test::integrate_hemisphere(
+        [&](const glm::dvec3& l) { return test::oracle_brdf(albedo, f0, 1.0, alpha, view, l) * l.z; }, view,
+        alpha, 100'000);
+}
+
+// Lamps as bright as the sky that they hide change nothing; but how often each of the two is drawn, and what
+// their weights are, must be right for that.
+TEST(ReferenceClosedForms, lamps_as_bright_as_the_sky_behind_them_cannot_be_seen) {
+    for (const float metallic : {0.0f, 1.0f}) {
+        for (const double angle_deg : {20.0, 55.0}) {
+            Material material;
+            material.base_color = glm::vec4(glm::vec3(0.8f), 1.0f);
+            material.metallic = metallic;
+            material.roughness = 0.5f;
+            const double expected = integrate_reflectance(material, angle_deg);
+            const auto check = [&](LightStrategy strategy, bool light_tree) {
+                ReferenceSettings s = furnace_settings(strategy, 256);
+                s.light_tree = light_tree;
+                const Furnace furnace = measure_furnace(material, angle_deg, s, true);
+                // Lights alone rarely find the highlight.
+                const double most = strategy == LightStrategy::LIGHTS_ONLY ? 2e-2 : 1e-3;
+                EXPECT_LT(furnace.standard_error, most * expected);
+                EXPECT_NEAR(furnace.mean, expected, 4.0 * furnace.standard_error + 2e-4)
+                    << metallic << " " << angle_deg << " " << int(strategy) << " " << light_tree;
+            };
+            check(LightStrategy::MIS, false);
+            check(LightStrategy::MIS, true);
+            check(LightStrategy::LIGHTS_ONLY, true);
+            check(LightStrategy::BRDF_ONLY, false);
+        }
+    }
 }
 
 // ---- Many bounces

@@ -88,6 +88,26 @@ TEST(GltfMeshes, AttributesOfUnequalLengthAreAnError) {
     EXPECT_NE(error_of([&] { gltf.load(); }).find("TEXCOORD_0"), std::string::npos);
 }
 
+TEST(GltfMeshes, BothSetsOfTextureCoordinatesAreReadAndAThirdIsNot) {
+    GltfBuilder gltf;
+    const int sets[] = {gltf.add_floats("VEC2", 3, {0, 1, 2, 3, 4, 5}),
+                        gltf.add_floats("VEC2", 3, {6, 7, 8, 9, 10, 11}),
+                        gltf.add_floats("VEC2", 3, {-1, -1, -1, -1, -1, -1})};
+    gltf.show({{"attributes",
+                {{"POSITION", gltf.add_triangle_positions()},
+                 {"TEXCOORD_0", sets[0]},
+                 {"TEXCOORD_1", sets[1]},
+                 {"TEXCOORD_2", sets[2]}}}});
+    const Scene scene = gltf.load();
+    const Mesh& mesh = scene.meshes.at(0);
+    ASSERT_EQ(mesh.positions_os.size(), 3u);
+    for (std::size_t v = 0; v < 3; ++v) {
+        const float x = 2.0f * mesh.positions_os[v].x + 4.0f * mesh.positions_os[v].y;
+        EXPECT_EQ(mesh.uv0.at(v), glm::vec2(x, x + 1.0f));
+        EXPECT_EQ(mesh.uv1.at(v), glm::vec2(x + 6.0f, x + 7.0f));
+    }
+}
+
 TEST(GltfMeshes, WeightsAreScaledToSumOne) {
     GltfBuilder gltf;
     const int joints =

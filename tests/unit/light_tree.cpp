@@ -240,6 +240,39 @@ TEST(LightTree, TheMeanOfItsEstimatesIsTheSumOverAllLights) {
     }
 }
 
+// A point light and a triangle of a millimetre, both far away: their irradiance in closed form is also what
+// the bounds of nodes without extent come to, but for LIGHT_TREE_SLACK; so no cosine may be near 0.
+TEST(LightTree, TwoSmallLightsAreDrawnInProportionToTheIrradianceTheyBring) {
+    Draws draws(8);
+    int compared = 0;
+    for (int i = 0; i < 1500; ++i) {
+        const glm::dvec3 places[] = {draws.unit_vector() * 3.0f, draws.unit_vector() * 4.0f};
+        const vec3 a = draws.unit_vector() * 1e-3f, b = draws.unit_vector() * 1e-3f;
+        const glm::dvec3 area = 0.5 * cross(glm::dvec3(a), glm::dvec3(b));
+        ToyScene toy;
+        toy.add_light(PunctualLight{}, glm::translate(glm::dmat4(1.0), places[0]));  // 1 W/sr
+        const Material lamp = emissive_material(vec3(float(3.0 / length(area))));    // 3 W/sr
+        toy.add_instance(toy.add_mesh(toy.add_material(lamp), {vec3(0.0f), a, b}),
+                         glm::translate(glm::dmat4(1.0), places[1]));
+        const World world = build_lit_world(toy.scene);
+        const glm::dvec3 place = draws.unit_vector(), normal = draws.unit_vector();
+        double irradiances[2], least_cosine = 1.0;
+        for (int k = 0; k < 2; ++k) {
+            const glm::dvec3 way = normalize(places[k] - place);
+            const double cosine = dot(normal, way), facing = k == 0 ? 1.0 : -dot(normalize(area), way);
+            irradiances[k] = (k == 0 ? 1.0 : 3.0) * std::max(cosine, 0.0) * std::max(facing, 0.0) /
+                             dot(places[k] - place, places[k] - place);
+            least_cosine = std::min({least_cosine, std::abs(cosine), std::abs(facing)});
+        }
+        const double sum = irradiances[0] + irradiances[1];
+        if (least_cosine < 0.1 || sum == 0.0) continue;
+        ++compared;
+        const Receiver point{vec3(place - world.origin_ws), vec3(normal)};
+        EXPECT_NEAR(list_pmf(world, point)[0], irradiances[0] / sum, 0.01);
+    }
+    EXPECT_GT(compared, 500);
+}
+
 // A hall of small lamps that face down: a point is lit by those around it, which power knows nothing of.
 TEST(LightTree, InAHallOfLampsItsVarianceIsAQuarterOfThatByPowerAtMost) {
     ToyScene toy;

@@ -6,22 +6,16 @@
 #include <limits>
 
 #include "support/draws.h"
+#include "support/texture_oracle.h"
 
 namespace tarn {
 namespace {
 
 using test::Draws;
+using test::filter_by_definition;
+using test::wrap_by_definition;
 
 const uint WRAP_MODES[] = {WRAP_REPEAT, WRAP_CLAMP, WRAP_MIRROR};
-
-// The wrap modes as OpenGL 4.5 writes them (table 8.20), in 64-bit integers.
-int wrap_by_definition(std::int64_t coordinate, std::int64_t size, uint wrap) {
-    const auto modulo = [](std::int64_t a, std::int64_t b) { return ((a % b) + b) % b; };
-    if (wrap == WRAP_REPEAT) return int(modulo(coordinate, size));
-    if (wrap == WRAP_CLAMP) return int(std::min(std::max(coordinate, std::int64_t(0)), size - 1));
-    const std::int64_t folded = modulo(coordinate, 2 * size) - size;
-    return int((size - 1) - (folded >= 0 ? folded : -(1 + folded)));
-}
 
 TEST(WrapTexel, EqualsTheDefinitionNearZeroForAllSmallSizes) {
     for (const uint wrap : WRAP_MODES) {
@@ -68,23 +62,6 @@ TEST(TexelFootprint, WeightsAreNotNegativeAndSumToOne) {
         }
         EXPECT_NEAR(sum, 1.0f, 2e-7f);
     }
-}
-
-// The filtered value at uv of a texture with texel value(x, y), in double precision from the definition.
-template <class Texel>
-double filter_by_definition(const glm::dvec2& uv, const ivec2& size, uint wrap_u, uint wrap_v,
-                            const Texel& texel) {
-    const double x = uv.x * size.x - 0.5, y = uv.y * size.y - 0.5;
-    double sum = 0.0;
-    for (int dy = 0; dy < 2; ++dy) {
-        for (int dx = 0; dx < 2; ++dx) {
-            const double cell_x = std::floor(x) + dx, cell_y = std::floor(y) + dy;
-            const double weight = (1.0 - std::abs(x - cell_x)) * (1.0 - std::abs(y - cell_y));
-            sum += weight * texel(wrap_by_definition(std::int64_t(cell_x), size.x, wrap_u),
-                                  wrap_by_definition(std::int64_t(cell_y), size.y, wrap_v));
-        }
-    }
-    return sum;
 }
 
 TEST(TexelFootprint, BilinearLookupEqualsTheDefinitionForAllPairsOfWrapModes) {
