@@ -13,6 +13,7 @@ namespace tarn {
 namespace {
 
 constexpr int CHANNELS = 4;  // R, G, B, luminance
+constexpr int LUMINANCE_CHANNEL = 3;
 constexpr double LUMINANCE[3] = {0.2126, 0.7152, 0.0722};
 // Skewness of a tile's mean above which Hall's transformation is no longer trusted: about 1 / skewness^2 rare
 // events.
@@ -180,10 +181,25 @@ class PooledTest {
         result_.pooled_fraction = double(pooled_tiles_) / double(grid_.sum_count());
         result_.threshold = sidak_threshold(significance, std::max(result_.tests, 1));
         result_.passes = result_.min_p_value >= result_.threshold;
+        for (const Power& power : powers_) {
+            result_.detectable_bias =
+                std::max(result_.detectable_bias, power.detectable_bias(result_.threshold));
+        }
         return result_;
     }
 
   private:
+    // What a test of luminance can find.
+    struct Power {
+        double relative_error;  // standard error of the difference over the reference's mean
+        double degrees_of_freedom;
+
+        double detectable_bias(double threshold) const {
+            const double critical = student_t_quantile(1.0 - 0.5 * threshold, degrees_of_freedom);
+            return relative_error * (critical + normal_quantile(0.9));
+        }
+    };
+
     struct Candidate {
         Block block;
         Moments a;
@@ -242,6 +258,10 @@ class PooledTest {
 
     void record(const Candidate& candidate, int channel) {
         ++result_.tests;
+        if (channel == LUMINANCE_CHANNEL && candidate.b.mean > 0.0) {
+            powers_.push_back({candidate.difference.standard_error / candidate.b.mean,
+                               candidate.difference.degrees_of_freedom});
+        }
         const double p_value = candidate.difference.p_value();
         if (result_.tests > 1 && !(p_value < result_.min_p_value)) return;
         const int edge = candidate.block.size * grid_.tile_size_px;
@@ -260,6 +280,7 @@ class PooledTest {
     MomentsOf b_;
     double rounding_;
     TileTest result_;
+    std::vector<Power> powers_;
     int pooled_tiles_ = 0;
 };
 
@@ -274,9 +295,9 @@ TileTest finish(TileTest test, std::size_t non_finite) {
 std::string describe(const TileTest& t) {
     return fmt::format(
         "smallest p {:.3g}, threshold {:.3g}, {:.0f} % of tests pooled; worst tile at ({}, {}), {} px, "
-        "channel {}: {:.6g} against {:.6g}, standard error {:.3g}",
+        "channel {}: {:.6g} against {:.6g}, standard error {:.3g}; finds a bias of {:.2g} %",
         t.min_p_value, t.threshold, 100.0 * t.pooled_fraction, t.x, t.y, t.size_px, t.channel, t.mean,
-        t.reference_mean, t.standard_error);
+        t.reference_mean, t.standard_error, 100.0 * t.detectable_bias);
 }
 
 TileSamples::TileSamples(int width_px, int height_px, int tile_size_px)

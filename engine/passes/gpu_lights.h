@@ -33,6 +33,8 @@ class GpuLights {
     std::uint32_t remap_first_row() const;
     // Whether any light ever changed: only then do shaders tell the two frames apart.
     bool have_changed() const { return have_changed_; }
+    // Whether any is not what it was in the last frame.
+    bool are_changing() const { return remapped_ || !changed_rows_.empty(); }
 
   private:
     void allocate(const WorldLights& lights);

@@ -63,6 +63,10 @@ class GpuScene {
     std::uint32_t previous_first_instance() const { return std::uint32_t(instance_revisions_.size()); }
     // Whether anything ever moved: only then do shaders ask where it was.
     bool has_moved() const { return has_moved_; }
+    // Whether anything, lights included, is not what it was in the last frame.
+    bool is_changing() const {
+        return moved_instances_ || !moved_meshes_.empty() || edited_materials_ || lights_.are_changing();
+    }
     // Whether any light ever changed, or a material, which may say how much of a light is there.
     bool have_lights_changed() const { return has_edited_materials_ || lights_.have_changed(); }
 

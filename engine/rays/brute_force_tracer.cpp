@@ -90,7 +90,8 @@ class BruteForceTracer : public RayTracer {
             if (!hit || hit->t > double(nearest ? nearest->t : ray.max_t)) continue;
             if (back_faces == BackFaces::PASS && single_sided && !hit->front) continue;
             const glm::vec2 barycentrics(hit->barycentrics);
-            if (!is_hit_covered(world, world.material_rows, key, ray.pixel, index, primitive, barycentrics)) continue;
+            if (!is_hit_covered(world, world.material_rows, key, ray.pixel, index, primitive, barycentrics))
+                continue;
             nearest = Hit{index, primitive, barycentrics, float(hit->t)};
         }
         return nearest;

@@ -41,18 +41,17 @@ void EmbreeMesh::create(RTCDevice device, const World& world, const WorldMesh& m
     commit();
 }
 
-// The world's vertex rows are 64 bytes apart and begin with the position, so Embree reads them where they lie.
-// Of each it loads 16 bytes, one row.
+// The world's vertex rows are 64 bytes apart and begin with the position, so Embree reads them where they
+// lie. Of each it loads 16 bytes, one row.
 void EmbreeMesh::share_memory(const World& world, const WorldMesh& mesh) {
     rtcSetSharedGeometryBuffer(geometry_.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                &world.triangles[mesh.first_triangle], 0, sizeof(glm::uvec3),
                                mesh.triangle_count);
     const void* rows = &world.vertex_rows[std::size_t(mesh.first_vertex) * VERTEX_ROWS];
     const bool copied = !positions_.empty();
-    rtcSetSharedGeometryBuffer(geometry_.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                               copied ? positions_.data() : rows, 0,
-                               copied ? sizeof(glm::vec4) : VERTEX_ROWS * sizeof(glm::uvec4),
-                               mesh.vertex_count);
+    rtcSetSharedGeometryBuffer(
+        geometry_.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, copied ? positions_.data() : rows, 0,
+        copied ? sizeof(glm::vec4) : VERTEX_ROWS * sizeof(glm::uvec4), mesh.vertex_count);
 }
 
 bool EmbreeMesh::update(const World& world, const WorldMesh& mesh) {

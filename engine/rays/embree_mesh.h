@@ -12,8 +12,8 @@ namespace tarn {
 class EmbreeMesh {
   public:
     // `coverage_filter` is null where no instance of the mesh has an alpha test. A mesh that never deforms is
-    // read where it lies in the world's memory; of one that does, a copy of its vertices is kept, so that this
-    // object stays as it is when the world's vertices move.
+    // read where it lies in the world's memory; of one that does, a copy of its vertices is kept, so that
+    // this object stays as it is when the world's vertices move.
     EmbreeMesh(RTCDevice device, const World& world, const WorldMesh& mesh,
                RTCFilterFunctionN coverage_filter);
 

@@ -1,4 +1,5 @@
-// The world at one moment as Embree sees it: a top level of instances, with meshes of its own where they deform.
+// The world at one moment as Embree sees it: a top level of instances, with meshes of its own where they
+// deform.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +16,8 @@ using StaticMeshes = std::vector<std::unique_ptr<EmbreeMesh>>;
 
 class EmbreeSnapshot {
   public:
-    // Takes the world as it is. `static_meshes` must outlive the snapshot; `coverage_filter` is for meshes with
-    // an alpha test, which `is_filtered` names.
+    // Takes the world as it is. `static_meshes` must outlive the snapshot; `coverage_filter` is for meshes
+    // with an alpha test, which `is_filtered` names.
     EmbreeSnapshot(RTCDevice device, const World& world, const StaticMeshes& static_meshes,
                    const std::vector<bool>& is_filtered, RTCFilterFunctionN coverage_filter);
 

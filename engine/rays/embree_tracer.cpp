@@ -1,5 +1,5 @@
-// Embree behind the RayTracer interface: one BVH per mesh, instances on top, at the present moment and the one
-// before.
+// Embree behind the RayTracer interface: one BVH per mesh, instances on top, at the present moment and the
+// one before.
 //
 // A hit's meaning (alpha, facing) comes from the world's own tables, by two filters. Coverage belongs to
 // geometries and is set where a mesh has an instance with an alpha test. Facing belongs to the query: camera
@@ -37,10 +37,9 @@ void filter_coverage(const RTCFilterFunctionNArguments* arguments) {
     for (unsigned int i = 0; i < n; ++i) {
         if (arguments->valid[i] != -1) continue;
         const glm::vec2 barycentrics(RTCHitN_u(arguments->hit, n, i), RTCHitN_v(arguments->hit, n, i));
-        const bool covered =
-            is_hit_covered(*query.world, query.snapshot->material_rows(), query.key, query.pixel,
-                           RTCHitN_instID(arguments->hit, n, i, 0), RTCHitN_primID(arguments->hit, n, i),
-                           barycentrics);
+        const bool covered = is_hit_covered(*query.world, query.snapshot->material_rows(), query.key,
+                                            query.pixel, RTCHitN_instID(arguments->hit, n, i, 0),
+                                            RTCHitN_primID(arguments->hit, n, i), barycentrics);
         if (!covered) arguments->valid[i] = 0;
     }
 }
@@ -165,10 +164,10 @@ class EmbreeTracer : public RayTracer {
         static_meshes_.clear();
         for (std::size_t i = 0; i < world.meshes.size(); ++i) {
             const WorldMesh& mesh = world.meshes[i];
-            static_meshes_.push_back(mesh.deforms ? nullptr
-                                                  : std::make_unique<EmbreeMesh>(
-                                                        device_.get(), world, mesh,
-                                                        is_filtered_[i] ? filter_coverage : nullptr));
+            static_meshes_.push_back(
+                mesh.deforms ? nullptr
+                             : std::make_unique<EmbreeMesh>(device_.get(), world, mesh,
+                                                            is_filtered_[i] ? filter_coverage : nullptr));
         }
         snapshots_[present_] = take_snapshot(world);
         check_embree(device_.get(), "building the scene");

@@ -28,8 +28,8 @@ inline bool has_alpha_test(std::uint32_t flags) {
     return (flags & (MATERIAL_ALPHA_MASK | MATERIAL_ALPHA_BLEND)) != 0u;
 }
 
-// Whether a ray of `pixel` meets the surface there, or passes through its alpha. `material_rows`: those of the
-// moment that the ray belongs to.
+// Whether a ray of `pixel` meets the surface there, or passes through its alpha. `material_rows`: those of
+// the moment that the ray belongs to.
 inline bool is_hit_covered(const World& world, std::span<const glm::uvec4> material_rows,
                            const CoverageKey& key, std::uint32_t pixel, std::uint32_t instance,
                            std::uint32_t primitive, const glm::vec2& barycentrics) {

@@ -18,9 +18,14 @@ double scene_diameter(const World& world) {
     return world.bounds.empty() ? 1.0 : std::max(1e-6, glm::length(world.bounds.extent()));
 }
 
+bool is_same_view(const CameraRecord& a, const CameraRecord& b) {
+    return a.position == b.position && a.right == b.right && a.up == b.up && a.forward == b.forward &&
+           a.orthographic == b.orthographic;
+}
+
 // Near plane of a perspective camera or depth range of an orthographic one, metres. Depth is reversed and
-// floating, near / distance: a near plane at 1e-9 of the scene costs no precision, and lets one stand on ground
-// that reaches to the horizon.
+// floating, near / distance: a near plane at 1e-9 of the scene costs no precision, and lets one stand on
+// ground that reaches to the horizon.
 float depth_parameter(const World& world, const CameraRecord& camera) {
     const double diameter = scene_diameter(world);
     if (!camera.orthographic) return float(1e-9 * diameter);
@@ -106,10 +111,11 @@ FrameOutput Renderer::render(const FrameInput& input) {
     gpu_scene_.bind();
 
     const GBuffer gbuffer = gbuffer_.record(frame_, world_, input.camera, defines_);
+    const bool has_moved = gpu_scene_.is_changing() || !is_same_view(input.camera, last_camera_);
     const bool follows = last_frame_ && input.frame == last_frame_->key.frame + 1;
     const Texture2D& radiance =
         direct_light_.record({frame_, tracer_, gbuffer, input.settings, glm::vec3(0.0f), counters_, defines_,
-                              shadow_key, follows ? last_frame_ : std::nullopt},
+                              shadow_key, follows ? last_frame_ : std::nullopt, has_moved},
                              world_, gpu_light_tree_.rows());
 
     const DirectLight::Rays rays = direct_light_.take_rays();

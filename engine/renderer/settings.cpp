@@ -153,6 +153,11 @@ const std::vector<Setting>& setting_table() {
               number("confidence-cap", "x",
                      "restir: confidence of the past at most, as a multiple of the fresh sample's",
                      &S::confidence_cap, 1, 1000)),
+        where(&S::reuses_time, number("motion-cap", "x",
+                                      "restir: the same in frames in which camera, lights or geometry moved: "
+                                      "a long history is worth "
+                                      "less there",
+                                      &S::motion_cap, 1, 1000)),
         where(&S::reuses_time, number("age-cap", "frames", "restir: drop samples older than this; 0: never",
                                       &S::age_cap, 0, 1000)),
         where(&S::reuses_time,
@@ -232,6 +237,7 @@ RenderSettings student_settings() {
     s.candidates = 32;
     s.neighbours = 5;
     s.radius_px = 10.0;
+    s.motion_cap = s.confidence_cap;
     s.mis = Mis::SHARE;
     return s;
 }
@@ -241,20 +247,26 @@ RenderSettings student_settings() {
 const std::vector<Preset>& preset_table() {
     static const std::vector<Preset> table = {
         {"fast", "two shadow rays a pixel, visibility averaged: some bias, least noise for its time",
-         fast_settings()},
+         fast_settings(), 0.05},
         {"balanced",
          "two shadow rays and one along the BRDF a pixel, the chosen sample traced: darkens near shadow "
          "edges",
-         balanced_settings()},
+         balanced_settings(), 0.05},
         {"fine",
          "balanced, with lights drawn by the light tree and a sample for each colour: no colour noise, twice "
          "the time",
-         fine_settings()},
-        {"unbiased", "rays in all MIS weights: no bias where geometry stands still", unbiased_settings()},
+         fine_settings(), 0.05},
+        {"unbiased", "rays in all MIS weights, those of the last frame past the last frame's geometry",
+         unbiased_settings(), 0.0},
         {"student", "32 random lights, 5 neighbours in 10 px, 1/M weights: the simplest form, for comparison",
-         student_settings()},
+         student_settings(), 0.2},
     };
     return table;
+}
+
+std::string Preset::describe() const {
+    if (energy_bound == 0.0) return sentence + "; no bias";
+    return fmt::format("{}; energy within {:.0f} %", sentence, 100.0 * energy_bound);
 }
 
 const Preset& find_preset(const std::string& name) {

@@ -40,6 +40,11 @@ struct Preset {
     std::string name;      // "fast"
     std::string sentence;  // what it is for
     RenderSettings settings;
+    double energy_bound;  // how far the mean of many pictures may be from the reference's, as a share of it;
+                          // 0: no bias. Measured in motion and at rest (tests/statistical/restir_motion.cpp).
+
+    // The sentence, with the bound.
+    std::string describe() const;
 };
 
 const std::vector<Preset>& preset_table();

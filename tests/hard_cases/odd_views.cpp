@@ -126,5 +126,30 @@ INSTANTIATE_TEST_SUITE_P(Finishes, GrazingViews,
                                          Finish{"SmoothMetal", 1.0f, 0.0f}, Finish{"RoughMetal", 1.0f, 1.0f}),
                          [](const auto& info) { return info.param.name; });
 
+// A plain of 300 km under the sun, seen by someone who stands on it: every pixel below the horizon has the
+// radiance E cos albedo / pi, the ground before the feet as well.
+TEST_F(OddViews, WhoStandsOnGroundThatReachesToTheHorizonSeesIt) {
+    constexpr float SIZE_M = 3e5f;
+    ToyScene toy;
+    toy.add_quad(toy.add_material(lambert_material(glm::vec3(0.5f))), {-SIZE_M / 2, 0, SIZE_M / 2},
+                 {SIZE_M, 0, 0}, {0, 0, -SIZE_M});
+    PunctualLight sun;
+    sun.kind = LightKind::DIRECTIONAL;
+    sun.intensity = glm::vec3(2.0f);
+    toy.add_light(sun, glm::rotate(glm::dmat4(1.0), glm::radians(-90.0), glm::dvec3(1, 0, 0)));
+    ToyRender render(toy.scene, WIDTH_PX, HEIGHT_PX);
+    const CameraRecord camera = render.look({10.0, 1.7, 20.0}, {10.0, 1.2, 10.0}, 60.0);
+    const Image image = render.render(camera, DirectMode::RIS);
+    int below = 0;
+    for (int y = 0; y < HEIGHT_PX; ++y) {
+        for (int x = 0; x < WIDTH_PX; ++x) {
+            if (render.ray_direction(camera, x, y).y > -0.01) continue;
+            ++below;
+            ASSERT_NEAR(image.pixel(x, y)[1], 0.5 / 3.14159265 * 2.0, 1e-4) << x << ", " << y;
+        }
+    }
+    EXPECT_GT(below, WIDTH_PX * HEIGHT_PX / 3);
+}
+
 }  // namespace
 }  // namespace tarn::test

@@ -2,6 +2,7 @@
 // went bad, samples that never die.
 #include <gtest/gtest.h>
 
+#include "core/statistics.h"
 #include "platform/context.h"
 #include "support/toy_render.h"
 
@@ -92,11 +93,13 @@ TEST_F(RestirHazards, AHistoryThatIsNoNumberIsDroppedAndCounted) {
 }
 
 // Share of pixels that show the same sample in two frames so far apart.
-double share_of_kept_samples(int age_cap, int frames_apart) {
+double share_of_kept_samples(int age_cap, int frames_apart, double confidence_cap = 1000.0) {
     constexpr int WARM_UP = 24;
     ToyRender render(make_lamp_stage(1.0f).scene, WIDTH_PX, HEIGHT_PX);
     render.settings.reuse = Reuse::TEMPORAL;
-    render.settings.confidence_cap = 1000.0;
+    render.settings.mis = Mis::SHARE;
+    render.settings.candidates = 128;  // weights that are next to alike
+    render.settings.confidence_cap = confidence_cap;
     render.settings.age_cap = age_cap;
     render.settings.debug_view = DebugView::SAMPLES;
     const CameraRecord camera = look_at_stage(render);
@@ -121,6 +124,40 @@ TEST_F(RestirHazards, SamplesOlderThanTheCapAreGone) {
     EXPECT_EQ(share_of_kept_samples(6, 8), 0.0);
     EXPECT_GT(share_of_kept_samples(6, 2), 0.3);
     EXPECT_GT(share_of_kept_samples(0, 8), 0.3);
+}
+
+// A past that counts four times as much as the fresh sample is kept four times in five, however old it is;
+// one that counts for all frames since the first, 24 times in 25.
+TEST_F(RestirHazards, TheCapOnConfidenceDecidesHowOftenSamplesAreReplaced) {
+    EXPECT_NEAR(share_of_kept_samples(0, 1, 4.0), 4.0 / 5.0, 0.03);
+    EXPECT_NEAR(share_of_kept_samples(0, 1, 1000.0), 24.0 / 25.0, 0.02);
+}
+
+// Hundreds of frames in which a point light circles: no counter moves, and the energy of the last frames is
+// that of the first.
+TEST_F(RestirHazards, ManyFramesLeaveNoTraceInCountersOrEnergy) {
+    constexpr int TURNS = 5, FRAMES_A_TURN = 80;
+    Scene scene = make_stage(1.0f);
+    World world = build_world(scene);
+    const auto tracer = create_embree_tracer(world);
+    Renderer renderer(world, *tracer, WIDTH_PX, HEIGHT_PX);
+    FrameInput input;
+    input.camera = look_at(world, {0.0, 3.0, 4.0}, {0.0, 0.0, 0.0}, 50.0, double(WIDTH_PX) / HEIGHT_PX);
+    input.settings = find_preset("unbiased").settings;
+    RunningMoments energy[TURNS];
+    for (int frame = 0; frame < TURNS * FRAMES_A_TURN; ++frame) {
+        const double angle = 2.0 * 3.14159265 * frame / FRAMES_A_TURN;
+        const glm::dvec3 place(1.5 * std::cos(angle), 1.0, 1.5 * std::sin(angle));
+        at(scene.nodes, scene.light_nodes[0]).matrix = glm::translate(glm::dmat4(1.0), place);
+        ++scene.revision;
+        update_world(world, scene, 0.0);
+        tracer->update(world);
+        renderer.update();
+        input.frame = std::uint32_t(frame);
+        energy[frame / FRAMES_A_TURN].add(mean_of(renderer.read_radiance(renderer.render(input).radiance)));
+    }
+    for (const auto& [name, value] : renderer.read_counters()) EXPECT_EQ(value, 0u) << name;
+    EXPECT_NEAR(energy[TURNS - 1].mean() / energy[1].mean(), 1.0, 0.01);
 }
 
 // A black mirror on the ground with a lamp over it, which the camera sees in the mirror alone: the mean of

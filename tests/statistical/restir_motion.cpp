@@ -1,69 +1,103 @@
-#include <gtest/gtest.h>
-
-#include <cstdio>
-#include <cstdlib>
-
-#include "core/tile_test.h"
-#include "platform/context.h"
-#include "reference/reference.h"
-#include "renderer/renderer.h"
-#include "support/moving_scenes.h"
+// ReSTIR while solid things move. The modes called unbiased have the reference's mean at that very moment,
+// the presets stay within the bounds that they state, and the mistakes of motion are found.
+#include "motion_run.h"
 
 namespace tarn::test {
 namespace {
-constexpr int W = 64, H = 48;
 
-struct Method { std::string name; RenderSettings settings; std::vector<std::string> planted; };
+class RestirMotion : public MotionTest {};
 
-void explore(MovingScene moving, std::vector<Method> methods, int seeds) {
-    moving.pose(moving.scene, LAST_FRAME);
-    World world = build_world(moving.scene, moving.options);
-    const auto tracer = create_embree_tracer(world);
-    FrameInput input;
-    input.camera = look_at(world, moving.camera_ws, moving.target_ws, 45.0, double(W) / H);
-    ReferenceSettings rs;
-    rs.width = W; rs.height = H; rs.camera = input.camera; rs.direct_only = true; rs.spp = 1024; rs.seed = 5;
-    const ReferenceResult rr = render_reference(world, *tracer, rs);
-    const TileReference truth{rr.radiance, rr.variance};
-    std::vector<std::unique_ptr<Renderer>> renderers;
-    std::vector<TileSamples> tiles, whole;
-    for (auto& m : methods) {
-        renderers.push_back(std::make_unique<Renderer>(world, *tracer, W, H, m.planted));
-        tiles.emplace_back(W, H, 16); whole.emplace_back(W, H, 64);
+const Material MATT = lambert_material(glm::vec3(0.7f, 0.6f, 0.5f));
+const Material GLOSSY = glossy_material(glm::vec3(0.6f), 0.3f);
+
+TEST_F(RestirMotion, ThingsThatCreep) {
+    expect_no_bias(make_moving_things(0.005, MATT), unbiased_methods());
+    expect_within_bounds(make_moving_things(0.005, MATT));
+}
+
+TEST_F(RestirMotion, ThingsThatWalk) {
+    expect_no_bias(make_moving_things(0.02, GLOSSY), unbiased_methods());
+    expect_within_bounds(make_moving_things(0.02, GLOSSY));
+}
+
+// What races leaves its history behind, and the picture is noisier.
+TEST_F(RestirMotion, ThingsThatRacePairwise) {
+    expect_no_bias(make_moving_things(0.2, MATT), {unbiased("pairwise")}, 3 * SEEDS);
+    expect_within_bounds(make_moving_things(0.2, MATT));
+}
+
+TEST_F(RestirMotion, ThingsThatRaceBalance) {
+    expect_no_bias(make_moving_things(0.2, MATT), {unbiased("balance", Mis::BALANCE)}, 5 * SEEDS);
+}
+
+TEST_F(RestirMotion, NegativeControlRaysOfTheLastFrameInPresentGeometryAreFound) {
+    expect_found(make_moving_things(0.005, MATT), unbiased("pairwise"), "TARN_PLANT_PRESENT_GEOMETRY");
+}
+
+// 1/Z weighs all alike that could have drawn a sample, and is the noisiest.
+TEST_F(RestirMotion, ThingsThatWalkByCount) {
+    expect_no_bias(make_moving_things(0.02, MATT), {unbiased("count", Mis::COUNT)}, 4 * SEEDS);
+}
+
+TEST_F(RestirMotion, LampsThatGrow) {
+    expect_no_bias(make_breathing_lamp(0.1), unbiased_methods(), 2 * SEEDS);
+    expect_within_bounds(make_breathing_lamp(0.1));
+}
+
+TEST_F(RestirMotion, LampsThatShrink) {
+    expect_no_bias(make_breathing_lamp(-0.05), unbiased_methods(), 2 * SEEDS);
+    expect_within_bounds(make_breathing_lamp(-0.05));
+}
+
+TEST_F(RestirMotion, NegativeControlJacobiansThatAreDroppedAreFound) {
+    for (const char* planted : {"TARN_PLANT_DROP_FRESH_JACOBIAN", "TARN_PLANT_DROP_PAST_JACOBIAN"}) {
+        expect_found(make_breathing_lamp(0.1), unbiased("pairwise"), planted);
+        expect_found(make_breathing_lamp(-0.05), unbiased("balance", Mis::BALANCE), planted);
     }
-    std::vector<double> ms(methods.size());
-    for (int seed = 0; seed < seeds; ++seed) {
-        input.seed = seed + 100;
-        for (int f = 0; f <= LAST_FRAME; ++f) {
-            moving.pose(moving.scene, f);
-            update_world(world, moving.scene, 0.0);
-            tracer->update(world);
-            for (std::size_t i = 0; i < methods.size(); ++i) {
-                renderers[i]->update();
-                if (f == 0) renderers[i]->reset_history();
-                input.frame = f;
-                input.settings = methods[i].settings;
-                auto out = renderers[i]->render(input);
-                if (seed > 0) ms[i] += out.timings.frame_ms;
-                if (f == LAST_FRAME) { Image im = renderers[i]->read_radiance(out.radiance); tiles[i].add(im); whole[i].add(im); }
-            }
-        }
-    }
-    for (std::size_t i = 0; i < methods.size(); ++i) {
-        auto t = tiles[i].test(truth); auto w = whole[i].test(truth);
-        fmt::print("{:28} {:5.2f} ms  picture {:.4f} +- {:.4f}  p {:.2g} | {}\n", methods[i].name, ms[i] / (seeds - 1) / (LAST_FRAME + 1), w.mean / w.reference_mean, w.standard_error / w.reference_mean, w.min_p_value, describe(t));
-    }
 }
 
-RenderSettings with(Mis mis) { RenderSettings s = find_preset("unbiased").settings; s.mis = mis; return s; }
+TEST_F(RestirMotion, ThingsThatMorphAndBend) {
+    expect_no_bias(make_deforming_things(), unbiased_methods());
+    expect_within_bounds(make_deforming_things());
+}
 
-TEST(Explore, Things) {
-    const auto context = create_context({});
-    const int seeds = std::getenv("SEEDS") ? std::atoi(std::getenv("SEEDS")) : 24;
-    std::vector<Method> methods = {{"pairwise", with(Mis::PAIRWISE), {}}, {"balance", with(Mis::BALANCE), {}}, {"count", with(Mis::COUNT), {}},
-        {"pairwise planted", with(Mis::PAIRWISE), {"TARN_PLANT_PRESENT_GEOMETRY"}}};
-    for (auto n : {"fast", "balanced", "fine", "student"}) methods.push_back({n, find_preset(n).settings, {}});
-    for (double step : {0.005, 0.02, 0.2}) { fmt::print("step {}\n", step); explore(make_moving_things(step), methods, seeds); }
+TEST_F(RestirMotion, VeilsAndLampsThatFade) {
+    expect_no_bias(make_fading_veils(), unbiased_methods(), 3 * SEEDS);
+    expect_within_bounds(make_fading_veils());
 }
+
+TEST_F(RestirMotion, LampsWithTexturesAndMirroredOnes) {
+    expect_no_bias(make_textured_lamps(), unbiased_methods(), 2 * SEEDS);
+    expect_within_bounds(make_textured_lamps());
 }
+
+TEST_F(RestirMotion, ManyLampsInColour) {
+    expect_no_bias(make_many_lamps(0.02), unbiased_methods(), 3 * SEEDS);
+    expect_within_bounds(make_many_lamps(0.02));
 }
+
+TEST_F(RestirMotion, ASampleForEachChannel) {
+    const auto per_channel = [](RenderSettings& settings) { settings.per_channel = true; };
+    expect_no_bias(make_many_lamps(0.02), {unbiased("pairwise, per channel", Mis::PAIRWISE, per_channel)});
+}
+
+// Whatever wrote the frames before, what follows has no bias.
+TEST_F(RestirMotion, MethodsThatTakeTurns) {
+    const RenderSettings last = unbiased("").settings(LAST_FRAME);
+    const auto turns = [&](const char* other, int from, int to) {
+        RenderSettings between = find_preset("balanced").settings;
+        if (other == std::string("ris")) between.direct = DirectMode::RIS;
+        if (other == std::string("student")) between = find_preset("student").settings;
+        return MotionMethod{fmt::format("{} in frames {} to {}", other, from, to),
+                            [=](int frame) { return frame >= from && frame <= to ? between : last; },
+                            {},
+                            true};
+    };
+    expect_no_bias(
+        make_moving_things(0.02, MATT),
+        {turns("balanced", 0, LAST_FRAME - 2), turns("ris", 2, 4), turns("student", 0, LAST_FRAME - 1)},
+        2 * SEEDS);
+}
+
+}  // namespace
+}  // namespace tarn::test

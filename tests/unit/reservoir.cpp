@@ -145,6 +145,18 @@ TEST(Reservoir, NanInfiniteAndNegativeWeightsAreReportedAndChangeNothing) {
     }
 }
 
+// Subnormal numbers: W would leave float's range, or a thread would flush them to 0.
+TEST(Reservoir, WeightsAndTargetsBelowTheLeastNormalNumberAreNoLight) {
+    LiveReservoir live = empty_live_reservoir();
+    EXPECT_TRUE(offer_candidate(live, LightSample{1u, vec2(0.0f)}, 1.0f, 1e-39f, 0.0f));
+    EXPECT_TRUE(offer_candidate(live, LightSample{2u, vec2(0.0f)}, 1e-40f, 1.0f, 0.0f));
+    EXPECT_EQ(live.weight_sum, 0.0f);
+    EXPECT_EQ(live.chosen.light, INVALID_INDEX);
+    EXPECT_TRUE(offer_candidate(live, LightSample{3u, vec2(0.0f)}, 1e-30f, 2e-38f, 0.0f));
+    EXPECT_FALSE(has_overflown(live));
+    EXPECT_GT(finish_reservoir(live, 1.0f).contribution_weight, 0.0f);
+}
+
 TEST(Reservoir, TheFirstLiveCandidateIsTakenForEveryUAndEveryWeight) {
     for (const float u : {0.0f, 0.5f, 1.0f - 0x1p-24f}) {
         for (float weight = 1e-30f; weight < 1e30f; weight *= 7.3f) {

@@ -40,7 +40,7 @@ void add_preset_option(CLI::App& command, RenderOptions& options) {
     std::string sentence = "Start from a named set of settings";
     for (const Preset& preset : preset_table()) {
         sentence += fmt::format("{}{}: {}", &preset == preset_table().data() ? " [" : "; ", preset.name,
-                                preset.sentence);
+                                preset.describe());
     }
     const auto apply = [&options](const std::string& name) {
         try {

@@ -25,7 +25,8 @@ struct DirectFrame {
     std::vector<std::string> defines;  // what the scene needs (plan/frame_plan.h)
     CoverageKey shadow_key;
     std::optional<PreviousRays> last_frame;  // how its rays were answered; none: this frame has no past
-    std::uint32_t sample = 0;  // which of the frame's samples of each pixel
+    bool has_moved = false;                  // camera, lights or geometry, since the last frame
+    std::uint32_t sample = 0;                // which of the frame's samples of each pixel
 };
 
 // Rows of four words, `rows` of them a pixel, as shaders write and read them. Error where a storage block of

@@ -47,6 +47,7 @@ struct DirectSettings {
     bool discard_occluded = true;
     bool per_channel = false;
     double confidence_cap = 20.0;
+    double motion_cap = 4.0;
     int age_cap = 0;
     double boiling_filter = 0.0;
     bool permute = false;

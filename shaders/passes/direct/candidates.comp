@@ -111,7 +111,11 @@ float selection_pdf(Stream s, LightSample drawn, IncidentLight incident) {
 #ifdef TARN_SELECT_UNIFORM
         return environment_pdf_solid_angle(incident.direction) / float(get_light_count() + 1u);
 #else
-        return environment_pdf_solid_angle(incident.direction) * environment_probability();
+        float share = environment_probability();
+#ifdef TARN_PLANT_FORGET_SKY_SHARE
+        share = 1.0f;
+#endif
+        return environment_pdf_solid_angle(incident.direction) * share;
 #endif
     }
 #if defined(TARN_SELECT_UNIFORM)

@@ -182,6 +182,22 @@ float normalization(Pair p, bool past_leads, float here_fresh, float here_past, 
                       : count_term(p.fresh.confidence, here_fresh) + count_term(p.past.confidence, there_fresh);
 }
 
+#ifdef TARN_CHECK_MIS
+// The weights of both techniques at the past sample sum to 1. The past technique's density there is found twice: as the
+// merge has it, from what the last frame stored, and as for a fresh sample at that place, by the way back.
+void check_weights(Pair p, float here_past, float there_past) {
+    if (MIS != MIS_BALANCE && MIS != MIS_PAIRWISE || here_past == 0.0f) return;
+    p.fresh_there = move_to_past(p.past.chosen);
+    p.fresh_jacobian = shift_jacobian(p.past.chosen, p.fresh_there);
+#ifdef TARN_PLANT_DROP_FRESH_JACOBIAN
+    p.fresh_jacobian = 1.0f;
+#endif
+    float fresh_weight, past_weight;
+    weigh(p, here_past, here_past, there_at_fresh(p), there_past, fresh_weight, past_weight);
+    if (abs(fresh_weight + past_weight - 1.0f) > 1e-3f) count_event(COUNTER_MIS_SUM);
+}
+#endif
+
 Reservoir merge(Pair p, ivec2 pixel) {
     bool has_fresh = p.fresh.contribution_weight > 0.0f;
     bool has_past_sample = p.past.contribution_weight > 0.0f;
@@ -193,6 +209,9 @@ Reservoir merge(Pair p, ivec2 pixel) {
         here_past *= load_answer(pixel, RAY_HERE);
         there_fresh *= load_answer(pixel, RAY_THERE);
     }
+#ifdef TARN_CHECK_MIS
+    check_weights(p, here_past, there_past);
+#endif
     float fresh_weight, past_weight;
     weigh(p, here_fresh, here_past, there_fresh, there_past, fresh_weight, past_weight);
 

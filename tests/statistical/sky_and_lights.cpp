@@ -1,0 +1,99 @@
+// A sky beside lamps: every way to find a light, with the BRDF's candidate and without, for each channel and
+// for all, has the reference's mean, and none of them lets a whole frame see the sky alone or not at all.
+#include "core/statistics.h"
+#include "motion_run.h"
+
+namespace tarn::test {
+namespace {
+
+class SkyAndLights : public MotionTest {};
+
+MotionMethod single(const std::string& name, DirectMode mode) {
+    RenderSettings settings;
+    settings.direct = mode;
+    settings.samples = 64;
+    return {name, [settings](int) { return settings; }};
+}
+
+MotionMethod ris(const std::string& name, LightSelection selection, bool brdf_candidate) {
+    RenderSettings settings;
+    settings.direct = DirectMode::RIS;
+    settings.light_selection = selection;
+    settings.brdf_candidate = brdf_candidate;
+    settings.candidates = 14;  // a quarter of them is no whole number
+    settings.samples = selection == LightSelection::UNIFORM && !brdf_candidate ? 16 : 8;
+    return {name, [settings](int) { return settings; }};
+}
+
+TEST_F(SkyAndLights, OneCandidateASampleHasNoBias) {
+    expect_no_bias(make_lamps_under_a_sky(),
+                   {single("uniform", DirectMode::UNIFORM), single("power", DirectMode::POWER),
+                    single("light-tree", DirectMode::LIGHT_TREE)},
+                   2 * SEEDS);
+}
+
+TEST_F(SkyAndLights, RisHasNoBias) {
+    expect_no_bias(
+        make_lamps_under_a_sky(),
+        {ris("uniform", LightSelection::UNIFORM, false), ris("power", LightSelection::POWER, false),
+         ris("tiles", LightSelection::TILES, false), ris("tree", LightSelection::TREE, false),
+         ris("uniform, brdf", LightSelection::UNIFORM, true), ris("power, brdf", LightSelection::POWER, true),
+         ris("tiles, brdf", LightSelection::TILES, true), ris("tree, brdf", LightSelection::TREE, true)});
+}
+
+TEST_F(SkyAndLights, RestirHasNoBias) {
+    const auto select = [](LightSelection selection, bool brdf_candidate) {
+        return [=](RenderSettings& settings) {
+            settings.light_selection = selection;
+            settings.brdf_candidate = brdf_candidate;
+            if (selection == LightSelection::TREE) settings.candidates = 8;
+        };
+    };
+    expect_no_bias(make_lamps_under_a_sky(),
+                   {unbiased("tree, brdf", Mis::PAIRWISE, select(LightSelection::TREE, true)),
+                    unbiased("uniform", Mis::PAIRWISE, select(LightSelection::UNIFORM, false)),
+                    unbiased("tiles, brdf, per channel", Mis::PAIRWISE,
+                             [](RenderSettings& settings) { settings.per_channel = true; })});
+    expect_within_bounds(make_lamps_under_a_sky());
+}
+
+TEST_F(SkyAndLights, NegativeControlTheSkysShareForgottenByTheBrdfsCandidateIsFound) {
+    expect_found(make_lamps_under_a_sky(), ris("power, brdf", LightSelection::POWER, true),
+                 "TARN_PLANT_FORGET_SKY_SHARE");
+}
+
+// Rays along the BRDF end on a lamp that is half there half of the time.
+TEST_F(SkyAndLights, LampsOfPartialCoverageAreCountedOnce) {
+    const MotionMethod method = ris("power, brdf", LightSelection::POWER, true);
+    expect_no_bias(make_half_lamps(), {method, ris("tree, brdf", LightSelection::TREE, true)});
+    expect_found(make_half_lamps(), method, "TARN_PLANT_FORGET_COVERAGE");
+}
+
+// Relative deviation of a frame's energy.
+double frame_deviation(DirectMode mode, const std::vector<std::string>& planted) {
+    MovingScene still = make_lamps_under_a_sky();
+    World world = build_world(still.scene, still.options);
+    const auto tracer = create_embree_tracer(world);
+    Renderer renderer(world, *tracer, WIDTH_PX, HEIGHT_PX, planted);
+    FrameInput input;
+    input.camera = look_at(world, still.camera_ws, still.target_ws, 45.0, double(WIDTH_PX) / HEIGHT_PX);
+    input.settings.direct = mode;
+    RunningMoments energy;
+    for (input.frame = 0; input.frame < 64; ++input.frame) {
+        const Image image = renderer.read_radiance(renderer.render(input).radiance);
+        double sum = 0.0;
+        for (const float value : image.values) sum += value;
+        energy.add(sum);
+    }
+    return std::sqrt(energy.variance()) / energy.mean();
+}
+
+TEST_F(SkyAndLights, AFrameIsNeitherAllSkyNorNone) {
+    for (const DirectMode mode : {DirectMode::POWER, DirectMode::LIGHT_TREE}) {
+        EXPECT_LT(frame_deviation(mode, {}), 0.1);
+        EXPECT_GT(frame_deviation(mode, {"TARN_PLANT_SKY_PER_FRAME"}), 0.5);
+    }
+}
+
+}  // namespace
+}  // namespace tarn::test
