@@ -251,11 +251,11 @@ const std::vector<Preset>& preset_table() {
         {"balanced",
          "two shadow rays and one along the BRDF a pixel, the chosen sample traced: darkens near shadow "
          "edges",
-         balanced_settings(), 0.05},
+         balanced_settings(), 0.08},
         {"fine",
          "balanced, with lights drawn by the light tree and a sample for each colour: no colour noise, twice "
          "the time",
-         fine_settings(), 0.05},
+         fine_settings(), 0.08},
         {"unbiased", "rays in all MIS weights, those of the last frame past the last frame's geometry",
          unbiased_settings(), 0.0},
         {"student", "32 random lights, 5 neighbours in 10 px, 1/M weights: the simplest form, for comparison",

@@ -35,8 +35,10 @@ TEST_F(RestirMotion, NegativeControlRaysOfTheLastFrameInPresentGeometryAreFound)
 }
 
 // 1/Z weighs all alike that could have drawn a sample, and is the noisiest.
-TEST_F(RestirMotion, ThingsThatWalkByCount) {
-    expect_no_bias(make_moving_things(0.02, MATT), {unbiased("count", Mis::COUNT)}, 4 * SEEDS);
+TEST_F(RestirMotion, LampsThatGrowOrCircleByCount) {
+    const MotionMethod count = unbiased("count", Mis::COUNT);
+    expect_no_bias(make_breathing_lamp(0.1), {count}, 3 * SEEDS);
+    expect_no_bias(make_many_lamps(0.02), {count}, 4 * SEEDS);
 }
 
 TEST_F(RestirMotion, LampsThatGrow) {
@@ -61,9 +63,13 @@ TEST_F(RestirMotion, ThingsThatMorphAndBend) {
     expect_within_bounds(make_deforming_things());
 }
 
-TEST_F(RestirMotion, VeilsAndLampsThatFade) {
-    expect_no_bias(make_fading_veils(), unbiased_methods(), 3 * SEEDS);
+TEST_F(RestirMotion, VeilsAndLampsThatFadePairwise) {
+    expect_no_bias(make_fading_veils(), {unbiased("pairwise")}, 4 * SEEDS);
     expect_within_bounds(make_fading_veils());
+}
+
+TEST_F(RestirMotion, VeilsAndLampsThatFadeBalance) {
+    expect_no_bias(make_fading_veils(), {unbiased("balance", Mis::BALANCE)}, 5 * SEEDS);
 }
 
 TEST_F(RestirMotion, LampsWithTexturesAndMirroredOnes) {
@@ -72,7 +78,7 @@ TEST_F(RestirMotion, LampsWithTexturesAndMirroredOnes) {
 }
 
 TEST_F(RestirMotion, ManyLampsInColour) {
-    expect_no_bias(make_many_lamps(0.02), unbiased_methods(), 3 * SEEDS);
+    expect_no_bias(make_many_lamps(0.02), unbiased_methods(), 2 * SEEDS);
     expect_within_bounds(make_many_lamps(0.02));
 }
 

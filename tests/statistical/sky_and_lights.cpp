@@ -11,7 +11,7 @@ class SkyAndLights : public MotionTest {};
 MotionMethod single(const std::string& name, DirectMode mode) {
     RenderSettings settings;
     settings.direct = mode;
-    settings.samples = 64;
+    settings.samples = mode == DirectMode::UNIFORM ? 80 : 64;
     return {name, [settings](int) { return settings; }};
 }
 
@@ -53,7 +53,8 @@ TEST_F(SkyAndLights, RestirHasNoBias) {
                    {unbiased("tree, brdf", Mis::PAIRWISE, select(LightSelection::TREE, true)),
                     unbiased("uniform", Mis::PAIRWISE, select(LightSelection::UNIFORM, false)),
                     unbiased("tiles, brdf, per channel", Mis::PAIRWISE,
-                             [](RenderSettings& settings) { settings.per_channel = true; })});
+                             [](RenderSettings& settings) { settings.per_channel = true; })},
+                   SEEDS / 2);
     expect_within_bounds(make_lamps_under_a_sky());
 }
 
@@ -65,7 +66,7 @@ TEST_F(SkyAndLights, NegativeControlTheSkysShareForgottenByTheBrdfsCandidateIsFo
 // Rays along the BRDF end on a lamp that is half there half of the time.
 TEST_F(SkyAndLights, LampsOfPartialCoverageAreCountedOnce) {
     const MotionMethod method = ris("power, brdf", LightSelection::POWER, true);
-    expect_no_bias(make_half_lamps(), {method, ris("tree, brdf", LightSelection::TREE, true)});
+    expect_no_bias(make_half_lamps(), {method, ris("tree, brdf", LightSelection::TREE, true)}, 2 * SEEDS);
     expect_found(make_half_lamps(), method, "TARN_PLANT_FORGET_COVERAGE");
 }
 

@@ -176,7 +176,7 @@ inline MovingScene make_deforming_things() {
 // would be noise.
 inline MovingScene make_fading_veils() {
     ToyScene toy = make_lit_floor(glossy_material(glm::vec3(0.5f), 0.35f));
-    const Material glow = emissive_material(glm::vec3(8.0f, 7.0f, 6.0f));
+    const Material glow = emissive_material(glm::vec3(4.0f, 3.5f, 3.0f));
     const MaterialIndex fading(toy.scene.materials.size());
     toy.add_instance(add_hanging_quad(toy, blended(glow, 0.5f), 0.4f));
     const NodeIndex lamp = last_node(toy);
@@ -248,7 +248,7 @@ inline MovingScene make_many_lamps(double turn_rad) {
             const double angle = 2.4 * i + turn_rad * (frame - LAST_FRAME),
                          radius = 0.3 * std::sqrt(double(i));
             put(scene, lamps[std::size_t(i)],
-                place_at({radius * std::cos(angle), 0.9 + 0.05 * (i % 5), radius * std::sin(angle)}));
+                place_at({radius * std::cos(angle), 1.3 + 0.05 * (i % 5), radius * std::sin(angle)}));
         }
     };
     return moving;

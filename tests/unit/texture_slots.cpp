@@ -339,7 +339,8 @@ TEST(TextureSlots, AnAlphaThatEqualsTheCutoffIsCovered) {
         const World world = build_sheet(sheet);
         SceneAccess access(world);
         const bool covered = cutoff == 0.5f;
-        EXPECT_EQ(is_hit_covered(world, {}, 0u, 0u, 0u, {0.0f, 0.0f}), covered) << cutoff;
+        EXPECT_EQ(is_hit_covered(world, world.material_rows, {}, 0u, 0u, 0u, {0.0f, 0.0f}), covered)
+            << cutoff;
         const glm::vec3 sent = access.load_triangle_radiance(access.load_light(0), {0.0f, 0.0f});
         EXPECT_EQ(sent.x, covered ? 1.0f : 0.0f) << cutoff;
     }
