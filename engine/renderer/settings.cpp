@@ -128,7 +128,8 @@ const std::vector<Setting>& setting_table() {
         where(&S::reuses,
               toggle(
                   "mis-visibility",
-                  "restir: trace visibility in the weights, which makes count, balance and pairwise unbiased",
+                  "restir: trace visibility in the weights, which makes count, balance and pairwise unbiased, also "
+                  "while things move",
                   &S::mis_visibility)),
         where(
             &S::reuses,
@@ -264,9 +265,8 @@ const std::vector<Preset>& preset_table() {
     return table;
 }
 
-std::string Preset::describe() const {
-    if (energy_bound == 0.0) return sentence + "; no bias";
-    return fmt::format("{}; energy within {:.0f} %", sentence, 100.0 * energy_bound);
+std::string Preset::describe_bias() const {
+    return energy_bound == 0.0 ? "no bias" : fmt::format("energy within {:.0f} %", 100.0 * energy_bound);
 }
 
 const Preset& find_preset(const std::string& name) {

@@ -43,8 +43,10 @@ struct Preset {
     double energy_bound;  // how far the mean of many pictures may be from the reference's, as a share of it;
                           // 0: no bias. Measured in motion and at rest (tests/statistical/restir_motion.cpp).
 
-    // The sentence, with the bound.
-    std::string describe() const;
+    // "energy within 5 %", or "no bias".
+    std::string describe_bias() const;
+    // The sentence, and that.
+    std::string describe() const { return sentence + "; " + describe_bias(); }
 };
 
 const std::vector<Preset>& preset_table();

@@ -20,8 +20,9 @@ MotionMethod ris(const std::string& name, LightSelection selection, bool brdf_ca
     settings.direct = DirectMode::RIS;
     settings.light_selection = selection;
     settings.brdf_candidate = brdf_candidate;
-    settings.candidates = 14;  // a quarter of them is no whole number
-    settings.samples = selection == LightSelection::UNIFORM && !brdf_candidate ? 16 : 8;
+    // A quarter of them is no whole number. Few beside the BRDF's, so that its share of the light is large.
+    settings.candidates = brdf_candidate ? 3 : 14;
+    settings.samples = brdf_candidate || selection == LightSelection::UNIFORM ? 16 : 8;
     return {name, [settings](int) { return settings; }};
 }
 

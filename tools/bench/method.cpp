@@ -74,6 +74,9 @@ Method make_method(const MethodRow& row) {
     Method method{row.name, row.sentence, {}, row.dial, row.warm_up_frames};
     for (const std::string& setting : split(row.settings, ',')) {
         apply_setting(method.settings, setting, row.name);
+        if (const std::string prefix = "preset="; setting.starts_with(prefix)) {
+            method.sentence += "; " + find_preset(setting.substr(prefix.size())).describe_bias();
+        }
     }
     return method;
 }
