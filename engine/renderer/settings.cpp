@@ -125,12 +125,11 @@ const std::vector<Setting>& setting_table() {
                                  "restir: weights of reused samples: 1/M, 1/Z, generalized balance "
                                  "heuristic, pairwise defensive",
                                  &S::mis, {"constant", "count", "balance", "pairwise"})),
-        where(&S::reuses,
-              toggle(
-                  "mis-visibility",
-                  "restir: trace visibility in the weights, which makes count, balance and pairwise unbiased, also "
-                  "while things move",
-                  &S::mis_visibility)),
+        where(&S::reuses, toggle("mis-visibility",
+                                 "restir: trace visibility in the weights, which makes count, balance and "
+                                 "pairwise unbiased, also "
+                                 "while things move",
+                                 &S::mis_visibility)),
         where(
             &S::reuses,
             choose(

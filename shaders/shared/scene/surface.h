@@ -134,8 +134,8 @@ FN VertexExtras interpolate_extras(uvec3 vertices, vec2 barycentrics) {
     VertexExtras extras;
     extras.uv0 = interpolate_uv0(vertices, barycentrics);
     extras.uv1 = unpack_uv1(a) * w + unpack_uv1(b) * u + unpack_uv1(c) * v;
-    // By differences: three equal colours stay what they are to the bit, so that an alpha that equals the cutoff
-    // is not rounded below it.
+    // By differences: three equal colours stay what they are to the bit, so that an alpha that equals the
+    // cutoff is not rounded below it.
     vec4 color = unpack_color(a);
     extras.color = color + (unpack_color(b) - color) * u + (unpack_color(c) - color) * v;
     return extras;
