@@ -121,7 +121,7 @@ class MotionTest : public testing::Test {
         settings.height = HEIGHT_PX;
         settings.camera = camera;
         settings.direct_only = true;
-        settings.spp = 1024;
+        settings.spp = 4096;
         settings.seed = 5;
         const ReferenceResult result = render_reference(world, tracer, settings);
         return {result.radiance, result.variance};

@@ -38,7 +38,7 @@ TEST_F(RestirMotion, NegativeControlRaysOfTheLastFrameInPresentGeometryAreFound)
 TEST_F(RestirMotion, LampsThatGrowOrCircleByCount) {
     const MotionMethod count = unbiased("count", Mis::COUNT);
     expect_no_bias(make_breathing_lamp(0.1), {count}, 3 * SEEDS);
-    expect_no_bias(make_many_lamps(0.02), {count}, 5 * SEEDS);
+    expect_no_bias(make_many_lamps(0.02), {count}, 4 * SEEDS);
 }
 
 TEST_F(RestirMotion, LampsThatGrow) {
@@ -69,7 +69,7 @@ TEST_F(RestirMotion, VeilsAndLampsThatFadePairwise) {
 }
 
 TEST_F(RestirMotion, VeilsAndLampsThatFadeBalance) {
-    expect_no_bias(make_fading_veils(), {unbiased("balance", Mis::BALANCE)}, 7 * SEEDS);
+    expect_no_bias(make_fading_veils(), {unbiased("balance", Mis::BALANCE)}, 5 * SEEDS);
 }
 
 TEST_F(RestirMotion, LampsWithTexturesAndMirroredOnes) {

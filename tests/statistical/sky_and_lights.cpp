@@ -55,7 +55,7 @@ TEST_F(SkyAndLights, RestirHasNoBias) {
                     unbiased("uniform", Mis::PAIRWISE, select(LightSelection::UNIFORM, false)),
                     unbiased("tiles, brdf, per channel", Mis::PAIRWISE,
                              [](RenderSettings& settings) { settings.per_channel = true; })},
-                   SEEDS / 2);
+                   SEEDS);
     expect_within_bounds(make_lamps_under_a_sky());
 }
 
@@ -67,7 +67,7 @@ TEST_F(SkyAndLights, NegativeControlTheSkysShareForgottenByTheBrdfsCandidateIsFo
 // Rays along the BRDF end on a lamp that is half there half of the time.
 TEST_F(SkyAndLights, LampsOfPartialCoverageAreCountedOnce) {
     const MotionMethod method = ris("power, brdf", LightSelection::POWER, true);
-    expect_no_bias(make_half_lamps(), {method, ris("tree, brdf", LightSelection::TREE, true)}, 3 * SEEDS);
+    expect_no_bias(make_half_lamps(), {method, ris("tree, brdf", LightSelection::TREE, true)}, 2 * SEEDS);
     expect_found(make_half_lamps(), method, "TARN_PLANT_FORGET_COVERAGE");
 }
 
