@@ -9,87 +9,10 @@
 #include <random>
 
 #include "shared/math/random.h"
-#include "support/toy_scenes.h"
+#include "support/ray_soup.h"
 
-namespace tarn {
+namespace tarn::test {
 namespace {
-
-using Rng = std::mt19937;
-
-glm::vec3 random_point(Rng& rng, float half_size) {
-    std::uniform_real_distribution<float> u(-half_size, half_size);
-    const float x = u(rng), y = u(rng), z = u(rng);
-    return {x, y, z};
-}
-
-std::vector<glm::vec3> random_triangles(Rng& rng, int count) {
-    std::vector<glm::vec3> corners;
-    for (int i = 0; i < count; ++i) {
-        const glm::vec3 centre = random_point(rng, 1.0f);
-        for (int c = 0; c < 3; ++c) corners.push_back(centre + random_point(rng, 0.6f));
-    }
-    return corners;
-}
-
-// Instances in every kind of transform: plain, turned, mirrored, stretched, flattened.
-void add_random_instances(ToyScene& toy, Rng& rng, MeshIndex mesh) {
-    const glm::dvec3 scales[] = {{1, 1, 1}, {-1, 1, 1}, {0.3, 2, 1}, {-1, -1, -2}, {1.5, 1, 0}};
-    for (const glm::dvec3& scale : scales) {
-        const glm::dvec3 axis = glm::normalize(glm::dvec3(random_point(rng, 1.0f)) + glm::dvec3(0, 0, 1.1));
-        glm::dmat4 m = glm::translate(glm::dmat4(1.0), glm::dvec3(random_point(rng, 2.0f)));
-        m = glm::scale(glm::rotate(m, 2.0, axis), scale);
-        toy.add_instance(mesh, m);
-    }
-}
-
-Material striped_material(ToyScene& toy, AlphaMode mode) {
-    TextureImage image;
-    image.width = image.height = 4;
-    for (int i = 0; i < 16; ++i) image.texels.emplace_back(65535, 65535, 65535, (i * 40503) % 65536);
-    toy.scene.images.push_back(image);
-    Texture texture;
-    texture.image = ImageIndex(toy.scene.images.size() - 1);
-    toy.scene.textures.push_back(texture);
-    Material material;
-    material.alpha_mode = mode;
-    material.double_sided = mode == AlphaMode::BLEND;
-    material.base_color_map.texture = TextureIndex(toy.scene.textures.size() - 1);
-    return material;
-}
-
-void add_random_uvs(Mesh& mesh, Rng& rng) {
-    for (std::size_t v = 0; v < mesh.positions_os.size(); ++v) {
-        const glm::vec3 p = random_point(rng, 2.0f);
-        mesh.uv0.emplace_back(p.x, p.y);
-    }
-}
-
-World make_soup(bool with_alpha) {
-    Rng rng(7);
-    ToyScene toy;
-    Material two_sided;
-    two_sided.double_sided = true;
-    const std::vector<Material> materials = {Material{}, two_sided, striped_material(toy, AlphaMode::MASK),
-                                             striped_material(toy, AlphaMode::BLEND)};
-    for (std::size_t m = 0; m < (with_alpha ? 4u : 2u); ++m) {
-        const MaterialIndex material = toy.add_material(materials[m]);
-        const MeshIndex mesh = toy.add_mesh(material, random_triangles(rng, 40));
-        add_random_uvs(at(toy.scene.meshes, mesh), rng);
-        add_random_instances(toy, rng, mesh);
-    }
-    return build_world(toy.scene);
-}
-
-RayRecord random_ray(Rng& rng, std::uint32_t pixel) {
-    std::uniform_real_distribution<float> u(0.0f, 1.0f);
-    RayRecord ray;
-    ray.origin = random_point(rng, 4.0f);
-    ray.direction = random_point(rng, 2.0f) - ray.origin;
-    const bool unlimited = u(rng) < 0.3f;
-    ray.max_t = unlimited ? RAY_INFINITY : 1.5f * u(rng);
-    ray.pixel = pixel;
-    return ray;
-}
 
 float edge_distance(const std::optional<Hit>& hit) {
     if (!hit) return 1.0f;
@@ -134,12 +57,6 @@ Disagreements compare_closest(const RayTracer& tracer, const RayTracer& oracle, 
         ++(is_borderline(ray, a, b) ? result.borderline : result.unexplained);
     }
     return result;
-}
-
-std::vector<glm::uvec4> pack_rays(const std::vector<RayRecord>& rays) {
-    std::vector<glm::uvec4> rows(rays.size() * RAY_ROWS);
-    for (std::size_t i = 0; i < rays.size(); ++i) pack_ray(rays[i], rows[2 * i], rows[2 * i + 1]);
-    return rows;
 }
 
 std::vector<RayRecord> random_rays(int count) {
@@ -335,76 +252,6 @@ TEST(Rays, updates_follow_deformed_meshes_and_moved_instances) {
     }
 }
 
-// Moves two instances, one of them flattened, deforms a mesh and lets the alpha of a material fade.
-void change_world(World& world, Rng& rng, float alpha) {
-    WorldMesh& mesh = world.meshes[1];
-    for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
-        glm::uvec4& row = world.vertex_rows[(mesh.first_vertex + v) * VERTEX_ROWS];
-        row = pack_row(row_xyz(row) + random_point(rng, 0.2f), row.w);
-    }
-    ++mesh.revision;
-    for (const std::uint32_t i : {0u, 4u}) {
-        WorldInstance& instance = world.instances[i];
-        instance.world_from_object[3] += glm::vec4(random_point(rng, 1.0f), 0.0f);
-        ++instance.revision;
-    }
-    for (std::size_t m = 0; m < world.material_flags.size(); ++m) {
-        world.material_rows[m * MATERIAL_ROWS].w = floatBitsToUint(alpha);
-    }
-    ++world.material_revision;
-}
-
-// Rays flagged RAY_PREVIOUS get the answers that the tracer gave before the update, with that frame's key;
-// the others those of the present. Through several updates, since geometry is kept in turns.
-TEST(Rays, previous_rays_are_answered_as_before_the_update) {
-    World world = make_soup(true);
-    world.meshes[1].deforms = true;
-    const auto embree = create_embree_tracer(world);
-    Rng rng(29);
-    std::vector<RayRecord> rays;
-    for (std::uint32_t i = 0; i < 4000; ++i) rays.push_back(random_ray(rng, i));
-    std::vector<RayRecord> mixed = rays;
-    for (std::size_t i = 0; i < mixed.size(); i += 2) mixed[i].pixel |= RAY_PREVIOUS;
-    const auto answer = [&](const std::vector<RayRecord>& of, const CoverageKey& key,
-                            const PreviousRays& previous) {
-        std::vector<float> visibility(of.size());
-        embree->trace_visibility(pack_rays(of), visibility, key, previous);
-        return visibility;
-    };
-    for (std::uint32_t frame = 0; frame < 4; ++frame) {
-        const CoverageKey before_key{frame, 3, RAY_SHADOW}, key{frame + 1, 3, RAY_SHADOW};
-        const std::uint64_t before_revision = embree->geometry_revision();
-        const std::vector<float> before = answer(rays, before_key, {});
-        change_world(world, rng, 0.3f + 0.2f * float(frame % 3));
-        embree->update(world);
-        EXPECT_EQ(embree->geometry_revision(), before_revision + 1);
-        EXPECT_TRUE(embree->remembers(before_revision));
-        const std::vector<float> now = answer(rays, key, {});
-        const std::vector<float> both = answer(mixed, key, {before_revision, before_key});
-        int differ = 0;
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-            EXPECT_EQ(both[i], i % 2 == 0 ? before[i] : now[i]) << "ray " << i << " of frame " << frame;
-            differ += before[i] != now[i];
-        }
-        EXPECT_GT(differ, 100);
-    }
-}
-
-TEST(Rays, without_a_change_the_previous_geometry_is_the_present_one) {
-    World world = make_soup(false);
-    const auto embree = create_embree_tracer(world);
-    const std::uint64_t first = embree->geometry_revision();
-    embree->update(world);
-    EXPECT_EQ(embree->geometry_revision(), first);
-    Rng rng(31);
-    change_world(world, rng, 1.0f);
-    embree->update(world);
-    change_world(world, rng, 1.0f);
-    embree->update(world);
-    EXPECT_FALSE(embree->remembers(first));
-    EXPECT_TRUE(embree->remembers(first + 1));
-}
-
 TEST(Rays, updates_follow_memory_that_moved) {
     World world = make_soup(false);
     const auto embree = create_embree_tracer(world);
@@ -427,4 +274,4 @@ TEST(Rays, a_world_without_triangles_hides_nothing) {
 }
 
 }  // namespace
-}  // namespace tarn
+}  // namespace tarn::test
