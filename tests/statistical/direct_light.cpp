@@ -36,7 +36,7 @@ class DirectLight : public DirectLightTest {
         input.camera = case_->camera();
         input.settings.direct = mode;
         input.settings.brdf_candidate = brdf_candidate;
-        TileSamples samples(WIDTH_PX, HEIGHT_PX, TILE_PX);
+        TileSamples samples(WIDTH_PX, HEIGHT_PX, DirectLightCase::tile_px(GetParam()));
         for (int seed = 0; seed < seeds; ++seed) {
             input.seed = std::uint32_t(seed) + 1000u;
             Image image = render_mean(renderer, input);

@@ -60,7 +60,7 @@ class Restir : public DirectLightTest {
         FrameInput input;
         input.camera = case_->camera();
         input.settings = settings;
-        TileSamples samples(WIDTH_PX, HEIGHT_PX, TILE_PX);
+        TileSamples samples(WIDTH_PX, HEIGHT_PX, DirectLightCase::tile_px(GetParam()));
         for (int seed = 0; seed < first_frame_seed_count(); ++seed) {
             input.seed = std::uint32_t(seed) + 4000u;
             renderer.reset_history();
@@ -78,7 +78,8 @@ class Restir : public DirectLightTest {
         FrameInput input;
         input.camera = case_->camera();
         input.settings = settings;
-        std::vector<TileSamples> samples(std::size(LATER_FRAMES), TileSamples(WIDTH_PX, HEIGHT_PX, TILE_PX));
+        std::vector<TileSamples> samples(
+            std::size(LATER_FRAMES), TileSamples(WIDTH_PX, HEIGHT_PX, DirectLightCase::tile_px(GetParam())));
         for (int seed = 0; seed < seeds; ++seed) {
             input.seed = std::uint32_t(seed) + 2000u;
             renderer.reset_history();
@@ -104,7 +105,7 @@ class Restir : public DirectLightTest {
         Renderer renderer = make_renderer(defines);
         FrameInput input;
         input.settings = settings;
-        TileSamples samples(WIDTH_PX, HEIGHT_PX, TILE_PX);
+        TileSamples samples(WIDTH_PX, HEIGHT_PX, DirectLightCase::tile_px(GetParam()));
         for (int seed = 0; seed < 2 * seed_count(); ++seed) {
             input.seed = std::uint32_t(seed) + 3000u;
             renderer.reset_history();
