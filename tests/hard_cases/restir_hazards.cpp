@@ -92,7 +92,21 @@ TEST_F(RestirHazards, AHistoryThatIsNoNumberIsDroppedAndCounted) {
     EXPECT_NEAR(planted, healthy, 0.05 * healthy);
 }
 
-// Share of pixels that show the same sample in two frames so far apart.
+// Share of the lit pixels that show the same sample in both.
+double share_of_same_samples(const Image& before, const Image& after) {
+    std::size_t kept = 0, shown = 0;
+    for (int y = 0; y < HEIGHT_PX; ++y) {
+        for (int x = 0; x < WIDTH_PX; ++x) {
+            const float *a = before.pixel(x, y), *b = after.pixel(x, y);
+            if (a[0] == 0.0f) continue;
+            kept += std::equal(a, a + 3, b);
+            ++shown;
+        }
+    }
+    return double(kept) / double(shown);
+}
+
+// That share for two frames so far apart, the camera being still.
 double share_of_kept_samples(int age_cap, int frames_apart, double confidence_cap = 1000.0) {
     constexpr int WARM_UP = 24;
     ToyRender render(make_lamp_stage(1.0f).scene, WIDTH_PX, HEIGHT_PX);
@@ -107,16 +121,7 @@ double share_of_kept_samples(int age_cap, int frames_apart, double confidence_ca
     const Image before = render.render(camera, DirectMode::RESTIR, 1, WARM_UP);
     render.render(camera, DirectMode::RESTIR, frames_apart - 1, WARM_UP + 1);
     const Image after = render.render(camera, DirectMode::RESTIR, 1, WARM_UP + frames_apart);
-    std::size_t kept = 0, shown = 0;
-    for (int y = 0; y < HEIGHT_PX; ++y) {
-        for (int x = 0; x < WIDTH_PX; ++x) {
-            const float *a = before.pixel(x, y), *b = after.pixel(x, y);
-            if (a[0] == 0.0f) continue;
-            kept += std::equal(a, a + 3, b);
-            ++shown;
-        }
-    }
-    return double(kept) / double(shown);
+    return share_of_same_samples(before, after);
 }
 
 // Places on a lamp never repeat: who shows the same one again has kept it.
@@ -131,6 +136,26 @@ TEST_F(RestirHazards, SamplesOlderThanTheCapAreGone) {
 TEST_F(RestirHazards, TheCapOnConfidenceDecidesHowOftenSamplesAreReplaced) {
     EXPECT_NEAR(share_of_kept_samples(0, 1, 4.0), 4.0 / 5.0, 0.03);
     EXPECT_NEAR(share_of_kept_samples(0, 1, 1000.0), 24.0 / 25.0, 0.02);
+}
+
+// In frames in which the camera moved, be it by a hair, a long past counts as much as the motion cap says.
+TEST_F(RestirHazards, AMovingCameraShortensThePast) {
+    constexpr int FRAMES = 12;
+    ToyRender render(make_lamp_stage(1.0f).scene, WIDTH_PX, HEIGHT_PX);
+    render.settings.reuse = Reuse::TEMPORAL;
+    render.settings.mis = Mis::SHARE;
+    render.settings.candidates = 128;
+    render.settings.motion_cap = 4.0;
+    render.settings.confidence_cap = 1000.0;
+    render.settings.debug_view = DebugView::SAMPLES;
+    CameraRecord camera = look_at_stage(render);
+    Image before, after;
+    for (int frame = 0; frame < FRAMES; ++frame) {
+        camera.position.x += 1e-6f;
+        before = std::move(after);
+        after = render.render(camera, DirectMode::RESTIR, 1, frame);
+    }
+    EXPECT_NEAR(share_of_same_samples(before, after), 4.0 / 5.0, 0.03);
 }
 
 // Hundreds of frames in which a point light circles: no counter moves, and the energy of the last frames is
