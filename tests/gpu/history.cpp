@@ -146,12 +146,18 @@ TEST_F(History, WeightsOverTimeSumToOne) {
         settings.mis = mis;
         for (int frame = 0; frame < 5; ++frame) {
             stage.move_to(frame);
+            const glm::mat3 turn(glm::rotate(glm::dmat4(1.0), 0.05, glm::dvec3(0, 1, 0)));
+            stage.camera_.right = turn * stage.camera_.right;
+            stage.camera_.up = turn * stage.camera_.up;
+            stage.camera_.forward = turn * stage.camera_.forward;
             renderer.update();
             renderer.render({stage.camera_, std::uint32_t(frame), 7, settings});
         }
         return renderer.read_counters().at("mis_sums");
     };
-    for (const MovingScene& moving : {make_fading_veils(), make_deforming_things(), make_textured_lamps()}) {
+    for (const MovingScene& moving :
+         {make_fading_veils(), make_deforming_things(), make_textured_lamps(), make_lamp_that_is_lit(),
+          make_moving_things(0.02, glossy_material(glm::vec3(0.1f), 0.2f))}) {
         EXPECT_EQ(count_wrong_sums(moving, Mis::PAIRWISE, "TARN_PLANT_NOTHING"), 0u);
     }
     for (const Mis mis : {Mis::BALANCE, Mis::PAIRWISE}) {

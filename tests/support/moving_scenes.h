@@ -221,6 +221,24 @@ inline MovingScene make_textured_lamps() {
     return moving;
 }
 
+// Two lamps with an emission map, of which the first is lit in frame 3: the other's rows move in the table.
+inline MovingScene make_lamp_that_is_lit() {
+    ToyScene toy = make_lit_floor();
+    Material glow = emissive_material(glm::vec3(14.0f));
+    glow.emission_map.texture = add_spotted_texture(toy);
+    const MaterialIndex lit_later(toy.scene.materials.size());
+    toy.add_instance(add_hanging_quad(toy, glow, 0.4f), place_at({-0.8, 0.8, 0.0}));
+    glow.emission_map.rotation_rad = 0.9f;
+    toy.add_instance(add_hanging_quad(toy, glow, 0.4f), place_at({0.8, 0.8, 0.2}));
+    MovingScene moving;
+    moving.scene = std::move(toy.scene);
+    moving.pose = [=](Scene& scene, int frame) {
+        at(scene.materials, lit_later).emission = glm::vec3(frame < 3 ? 0.0f : 14.0f);
+        ++scene.revision;
+    };
+    return moving;
+}
+
 // Sixty lamps in six colours that circle over a textured, glossy floor, some through a grid with holes.
 inline MovingScene make_many_lamps(double turn_rad) {
     ToyScene toy;
