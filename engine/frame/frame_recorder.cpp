@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "gl/driver_quirks.h"
 #include "gl/fence.h"
+#include "shared/interface/bindings.h"
 
 namespace tarn {
 namespace {
@@ -58,14 +59,29 @@ PassRecorder& PassRecorder::read(unsigned unit, const BufferTexture& texture, co
 
 PassRecorder& PassRecorder::read(unsigned unit, const TextureArray& textures) {
     frame_.check_written(textures.id(), true, name_, textures.name());
+    return read_unchecked(unit, textures);
+}
+
+PassRecorder& PassRecorder::read_unchecked(unsigned unit, const TextureArray& textures) {
     textures.bind(unit);
     bytes_read_ += textures.size_bytes();
     return *this;
 }
 
-PassRecorder& PassRecorder::read(unsigned unit, const Past<RowBuffer>& rows) {
-    rows.value().texture().bind(unit);
-    bytes_read_ += rows.value().buffer().size_bytes();
+PassRecorder& PassRecorder::read_unchecked(unsigned unit, const RowBuffer& rows) {
+    rows.texture().bind(unit);
+    bytes_read_ += rows.buffer().size_bytes();
+    return *this;
+}
+
+PassRecorder& PassRecorder::read_table(unsigned unit, const RowBuffer& rows) {
+    rows.texture().bind(unit);
+    return *this;
+}
+
+PassRecorder& PassRecorder::bind_constants(const void* bytes, std::size_t size_bytes) {
+    frame_.constants_.bind(bytes, size_bytes);
+    constants_bytes_ = size_bytes;
     return *this;
 }
 
@@ -80,6 +96,21 @@ PassRecorder& PassRecorder::write_image(unsigned unit, const Texture2D& texture)
     frame_.written_.emplace(true, texture.id());
     bytes_written_ += texture.size_bytes();
     return *this;
+}
+
+PassRecorder& PassRecorder::read_write_image(unsigned unit, const Texture2D& texture) {
+    frame_.check_written(texture.id(), true, name_, texture.name());
+    texture.bind_image(unit, GL_READ_WRITE);
+    bytes_read_ += texture.size_bytes();
+    bytes_written_ += texture.size_bytes();
+    return *this;
+}
+
+PassRecorder& PassRecorder::read_write(unsigned binding, const Rows& rows) {
+    const Buffer& buffer = rows->buffer();
+    frame_.check_written(buffer.id(), false, name_, buffer.name());
+    bytes_read_ += buffer.size_bytes();
+    return write(binding, buffer);
 }
 
 PassRecorder& PassRecorder::write(unsigned binding, const Buffer& buffer) {
@@ -116,18 +147,33 @@ PassRecorder& PassRecorder::write_target(const Framebuffer& target,
     return *this;
 }
 
-void PassRecorder::dispatch(const Program& program, int width_px, int height_px) {
+// A block that the shader has and the pass did not fill, or filled with another struct.
+void PassRecorder::check_constants(const Program& program) const {
+    const std::size_t expected = program.uniform_block_size(BLOCK_PASS);
+    const std::size_t rounded = (constants_bytes_ + 15) / 16 * 16;
+    if (expected != 0 && expected != rounded) {
+        throw Error("pass '{}' gives {} bytes of constants, its shader reads {}", name_, constants_bytes_,
+                    expected);
+    }
+}
+
+void PassRecorder::dispatch(const Program& program, const glm::ivec2& size_px) {
+    check_constants(program);
     program.use();
     frame_.time_device_work(name_, [&] {
-        glDispatchCompute(GLuint((width_px + GROUP_SIZE_PX - 1) / GROUP_SIZE_PX),
-                          GLuint((height_px + GROUP_SIZE_PX - 1) / GROUP_SIZE_PX), 1);
+        glDispatchCompute(GLuint((size_px.x + GROUP_SIZE_PX - 1) / GROUP_SIZE_PX),
+                          GLuint((size_px.y + GROUP_SIZE_PX - 1) / GROUP_SIZE_PX), 1);
         glMemoryBarrier(AFTER_DISPATCH);
     });
     note_traffic(false);
 }
 
-void PassRecorder::draw(const Program& program, const std::function<void()>& draws) {
+void PassRecorder::draw(const Program& program, const VertexArray& vertices, const Buffer& commands,
+                        const std::function<void()>& draws) {
+    check_constants(program);
     program.use();
+    vertices.bind();
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.id());
     frame_.time_device_work(name_, draws);
     note_traffic(false);
 }
@@ -157,6 +203,7 @@ FrameRecorder::FrameRecorder()
 void FrameRecorder::begin() {
     written_.clear();
     timed_.clear();
+    constants_.clear();
     queries_used_ = 0;
     start_ = std::chrono::steady_clock::now();
 }
@@ -175,6 +222,25 @@ FrameTimings FrameRecorder::end() {
         add_timing(timings, {timed.name, ms, timed.bytes_read, timed.bytes_written, timed.is_on_cpu});
     }
     return timings;
+}
+
+Rows FrameRecorder::take_rows(const std::string& name, std::size_t size_bytes, BufferUse use, GLenum format) {
+    const std::string kind = fmt::format("{} {} {} {}", name, size_bytes, int(use), format);
+    const Rows rows = row_pool_.take(kind, [&] { return RowBuffer(name, size_bytes, use, format); });
+    written_.erase({false, rows->buffer().id()});
+    return rows;
+}
+
+Picture FrameRecorder::take_picture(const std::string& name, const glm::ivec2& size_px, GLenum format) {
+    const std::string kind = fmt::format("{} {} x {} {}", name, size_px.x, size_px.y, format);
+    const Picture picture =
+        picture_pool_.take(kind, [&] { return Texture2D(name, size_px.x, size_px.y, format); });
+    written_.erase({true, picture->id()});
+    return picture;
+}
+
+void FrameRecorder::bind_frame_block(const Buffer& block) {
+    block.bind_uniform(BLOCK_FRAME);
 }
 
 void FrameRecorder::check_written(unsigned id, bool is_texture, const std::string& pass,

@@ -1,10 +1,10 @@
 // Records one frame, pass by pass: binds, labels, times, issues the barriers, and checks that what a pass
 // reads was written earlier in this frame.
 //
-//     frame.pass("direct/shade").read(14, reservoirs).write_image(0, radiance).dispatch(program, width,
-//     height);
+//     frame.pass("direct/shade").read(14, reservoirs).write_image(0, radiance).dispatch(program, size_px);
 //
-// Only a History<T> (frame/history.h) looks back to the frame before.
+// Tables that the CPU filled are read as such; only a History<T> (frame/history.h) looks back to the frame
+// before.
 #pragma once
 
 #include <chrono>
@@ -16,7 +16,9 @@
 #include <utility>
 #include <vector>
 
+#include "frame/constants_buffer.h"
 #include "frame/history.h"
+#include "frame/pool.h"
 #include "frame/timings.h"
 #include "gl/buffer.h"
 #include "gl/debug_output.h"
@@ -25,10 +27,15 @@
 #include "gl/query.h"
 #include "gl/row_buffer.h"
 #include "gl/texture.h"
+#include "gl/vertex_array.h"
 
 namespace tarn {
 
 class FrameRecorder;
+
+// Values of a frame, in pooled memory.
+using Rows = std::shared_ptr<RowBuffer>;
+using Picture = std::shared_ptr<Texture2D>;
 
 // A pass while it is being described. Lives until the end of the statement that records it.
 class PassRecorder {
@@ -46,15 +53,37 @@ class PassRecorder {
     PassRecorder& read(unsigned unit, const RowBuffer& rows) {
         return read(unit, rows.texture(), rows.buffer());
     }
-    // What the last frame wrote, before any other pass of this frame.
-    PassRecorder& read(unsigned unit, const Past<RowBuffer>& rows);
+    PassRecorder& read(unsigned unit, const Rows& rows) { return read(unit, *rows); }
+    PassRecorder& read(unsigned unit, const Picture& picture) { return read(unit, *picture); }
+    // What the last frame kept: `part` of `value`.
+    template <class T>
+    PassRecorder& read(unsigned unit, const Previous<T>& /*value*/, const TextureArray& part) {
+        return read_unchecked(unit, part);
+    }
+    template <class T>
+    PassRecorder& read(unsigned unit, const Previous<T>& /*value*/, const Rows& part) {
+        return read_unchecked(unit, *part);
+    }
+    // A table that the CPU filled. What a pass reads of it is no traffic that could be told.
+    PassRecorder& read_table(unsigned unit, const RowBuffer& rows);
+    // The pass's own constants (shared/interface/constants), a copy of which it gets.
+    template <class T>
+    PassRecorder& constants(const T& values) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        return bind_constants(&values, sizeof(T));
+    }
     // Writes through image unit `unit`.
     PassRecorder& write_image(unsigned unit, const Texture2D& texture);
+    // Reads what an earlier pass wrote and writes over it.
+    PassRecorder& read_write_image(unsigned unit, const Texture2D& texture);
     // Says that the layers of `textures`, bound one by one, are all written.
     PassRecorder& write(const TextureArray& textures);
     // Writes as storage block `binding`.
     PassRecorder& write(unsigned binding, const Buffer& buffer);
     PassRecorder& write(unsigned binding, const RowBuffer& rows) { return write(binding, rows.buffer()); }
+    PassRecorder& write(unsigned binding, const Rows& rows) { return write(binding, rows->buffer()); }
+    // The same where the pass keeps some of what an earlier pass wrote there.
+    PassRecorder& read_write(unsigned binding, const Rows& rows);
     // Reads by the CPU, through the buffer's mapping.
     PassRecorder& read_on_cpu(const Buffer& buffer);
     // Writes by the CPU, through the buffer's mapping.
@@ -65,17 +94,23 @@ class PassRecorder {
     PassRecorder& write_target(const Framebuffer& target, std::initializer_list<const Texture2D*> colours);
 
     // Runs a compute shader of 8 x 8 groups once per pixel.
-    void dispatch(const Program& program, int width_px, int height_px);
-    // Runs `draws`, which issues draw calls with `program` in use.
-    void draw(const Program& program, const std::function<void()>& draws);
+    void dispatch(const Program& program, const glm::ivec2& size_px);
+    // Runs `draws`, which issues indirect draw calls: from `commands`, with `vertices` and `program` in use.
+    void draw(const Program& program, const VertexArray& vertices, const Buffer& commands,
+              const std::function<void()>& draws);
     // Runs work of the CPU over buffers that it shares with GL: waits for the device before, and is timed
     // alone.
     void run_on_cpu(const std::function<void()>& work);
 
   private:
+    PassRecorder& read_unchecked(unsigned unit, const TextureArray& textures);
+    PassRecorder& read_unchecked(unsigned unit, const RowBuffer& rows);
+    PassRecorder& bind_constants(const void* bytes, std::size_t size_bytes);
+    void check_constants(const Program& program) const;
     void note_traffic(bool is_on_cpu);
 
     FrameRecorder& frame_;
+    std::size_t constants_bytes_ = 0;
     std::string name_;
     DebugGroup group_;
     std::size_t bytes_read_ = 0;
@@ -92,6 +127,16 @@ class FrameRecorder {
     FrameTimings end();
 
     PassRecorder pass(std::string name) { return PassRecorder(*this, std::move(name)); }
+
+    // Memory for a value of this frame: nothing is written there yet. Errors: RowBuffer, Texture2D.
+    Rows take_rows(const std::string& name, std::size_t size_bytes, BufferUse use,
+                   GLenum format = GL_RGBA32UI);
+    Picture take_picture(const std::string& name, const glm::ivec2& size_px, GLenum format);
+
+    // Binds a table for all passes of the frame.
+    void bind_table(unsigned unit, const RowBuffer& rows) { rows.texture().bind(unit); }
+    // Binds the constants of the frame itself.
+    void bind_frame_block(const Buffer& block);
 
   private:
     friend class PassRecorder;
@@ -111,6 +156,9 @@ class FrameRecorder {
     void time_device_work(const std::string& name, const std::function<void()>& commands);
     std::size_t stamp();
 
+    Pool<RowBuffer> row_pool_;
+    Pool<Texture2D> picture_pool_;
+    ConstantsBuffer constants_;
     bool wait_for_each_pass_;  // quirk: the device's clock does not tell when work is done
     std::set<std::pair<bool, unsigned>> written_;  // (is texture, GL name)
     std::vector<TimestampQuery> queries_;

@@ -1,44 +1,46 @@
 // What a frame keeps for the next one: the only way in which a pass may look back in time.
 #pragma once
 
-#include <array>
+#include <cstdint>
+#include <optional>
+#include <utility>
 
 namespace tarn {
 
+// A value of the frame before. Only a History makes one, after asking which frame that was: so the frame
+// recorder need not ask who wrote it.
 template <class T>
-class History;
-
-// What the frame before wrote. Only a History hands it out, so that the frame recorder need not ask who wrote
-// it.
-template <class T>
-class Past {
+class Previous {
   public:
     const T& value() const { return value_; }
 
   private:
-    friend class History<T>;
-    explicit Past(const T& value) : value_(value) {}
-    const T& value_;
+    template <class>
+    friend class History;
+    explicit Previous(T value) : value_(std::move(value)) {}
+    T value_;
 };
 
-// Two of a kind: one is written by this frame, the other holds what the last frame wrote.
+// The latest value of its kind and the frame that kept it.
 template <class T>
 class History {
   public:
-    // Both are made by `make()`.
-    template <class Make>
-    explicit History(const Make& make) : items_{make(), make()} {}
+    // What frame `frame` kept; nothing where another frame was the last to keep something.
+    std::optional<Previous<T>> of_frame(std::uint32_t frame) const {
+        if (!value_ || frame_ != frame) return std::nullopt;
+        return Previous<T>(*value_);
+    }
 
-    T& current() { return items_[current_]; }
-    const T& current() const { return items_[current_]; }
-    Past<T> previous() const { return Past<T>(items_[1 - current_]); }
+    void keep(std::uint32_t frame, T value) {
+        frame_ = frame;
+        value_ = std::move(value);
+    }
 
-    // Ends a frame: what is current becomes the past.
-    void advance() { current_ = 1 - current_; }
+    void forget() { value_.reset(); }
 
   private:
-    std::array<T, 2> items_;
-    std::size_t current_ = 0;
+    std::uint32_t frame_ = 0;
+    std::optional<T> value_;
 };
 
 }  // namespace tarn

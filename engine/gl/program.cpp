@@ -45,6 +45,19 @@ Shader compile(const std::string& program_name, const ShaderStage& stage) {
     return shader;
 }
 
+std::map<unsigned, std::size_t> read_block_sizes(GLuint program) {
+    GLint count = 0;
+    glGetProgramInterfaceiv(program, GL_UNIFORM_BLOCK, GL_ACTIVE_RESOURCES, &count);
+    std::map<unsigned, std::size_t> sizes;
+    for (GLint block = 0; block < count; ++block) {
+        const GLenum properties[] = {GL_BUFFER_BINDING, GL_BUFFER_DATA_SIZE};
+        GLint values[2] = {};
+        glGetProgramResourceiv(program, GL_UNIFORM_BLOCK, GLuint(block), 2, properties, 2, nullptr, values);
+        sizes[unsigned(values[0])] = std::size_t(values[1]);
+    }
+    return sizes;
+}
+
 }  // namespace
 
 Program::Program(std::string name, std::span<const ShaderStage> stages)
@@ -62,34 +75,48 @@ Program::Program(std::string name, std::span<const ShaderStage> stages)
     if (linked != GL_TRUE)
         throw Error("shader {} does not link: {}", name_,
                     translate_shader_log(stages.front().source, read_program_log(id())));
+    block_sizes_ = read_block_sizes(id());
 }
 
 void Program::set(std::string_view uniform, int value) const {
-    glProgramUniform1i(id(), find_location(uniform), value);
+    glProgramUniform1i(id(), require_location(uniform), value);
 }
 void Program::set(std::string_view uniform, unsigned value) const {
-    glProgramUniform1ui(id(), find_location(uniform), value);
+    glProgramUniform1ui(id(), require_location(uniform), value);
 }
 void Program::set(std::string_view uniform, float value) const {
-    glProgramUniform1f(id(), find_location(uniform), value);
+    glProgramUniform1f(id(), require_location(uniform), value);
 }
 void Program::set(std::string_view uniform, const glm::vec2& value) const {
-    glProgramUniform2fv(id(), find_location(uniform), 1, glm::value_ptr(value));
+    glProgramUniform2fv(id(), require_location(uniform), 1, glm::value_ptr(value));
 }
 void Program::set(std::string_view uniform, const glm::vec3& value) const {
-    glProgramUniform3fv(id(), find_location(uniform), 1, glm::value_ptr(value));
+    glProgramUniform3fv(id(), require_location(uniform), 1, glm::value_ptr(value));
 }
 void Program::set(std::string_view uniform, const glm::vec4& value) const {
-    glProgramUniform4fv(id(), find_location(uniform), 1, glm::value_ptr(value));
+    glProgramUniform4fv(id(), require_location(uniform), 1, glm::value_ptr(value));
 }
 void Program::set(std::string_view uniform, const glm::ivec2& value) const {
-    glProgramUniform2iv(id(), find_location(uniform), 1, glm::value_ptr(value));
+    glProgramUniform2iv(id(), require_location(uniform), 1, glm::value_ptr(value));
 }
 void Program::set(std::string_view uniform, const glm::uvec2& value) const {
-    glProgramUniform2uiv(id(), find_location(uniform), 1, glm::value_ptr(value));
+    glProgramUniform2uiv(id(), require_location(uniform), 1, glm::value_ptr(value));
 }
 void Program::set(std::string_view uniform, const glm::mat4& value) const {
-    glProgramUniformMatrix4fv(id(), find_location(uniform), 1, GL_FALSE, glm::value_ptr(value));
+    glProgramUniformMatrix4fv(id(), require_location(uniform), 1, GL_FALSE, glm::value_ptr(value));
+}
+
+GLint Program::require_location(std::string_view uniform) const {
+    const GLint location = find_location(uniform);
+#ifndef NDEBUG
+    if (location < 0) throw Error("shader {} has no uniform '{}'", name_, uniform);
+#endif
+    return location;
+}
+
+std::size_t Program::uniform_block_size(unsigned binding) const {
+    const auto found = block_sizes_.find(binding);
+    return found == block_sizes_.end() ? 0 : found->second;
 }
 
 // GL itself ignores location -1, which stands for unknown names.

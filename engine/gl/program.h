@@ -27,8 +27,9 @@ class Program {
 
     void use() const { glUseProgram(id()); }
 
-    // Sets a uniform by name, whether or not the program is in use; a name that the program does not have (or
-    // that the compiler dropped as unused) is ignored.
+    // Sets a uniform by name, whether or not the program is in use. A name that the program does not have (or
+    // that the compiler dropped as unused) is an Error where assertions are on, else ignored. Passes of a
+    // frame have constants instead (PassRecorder::constants).
     void set(std::string_view uniform, int value) const;
     void set(std::string_view uniform, unsigned value) const;
     void set(std::string_view uniform, float value) const;
@@ -42,6 +43,9 @@ class Program {
     // True when the linked program has this uniform.
     bool has_uniform(std::string_view uniform) const { return find_location(uniform) >= 0; }
 
+    // Bytes of the uniform block that the program reads at `binding`, as the driver lays it out; 0: none.
+    std::size_t uniform_block_size(unsigned binding) const;
+
     const std::string& name() const { return name_; }
     GLuint id() const { return handle_.id(); }
 
@@ -49,10 +53,12 @@ class Program {
     static void destroy(GLuint id) { glDeleteProgram(id); }
 
     GLint find_location(std::string_view uniform) const;
+    GLint require_location(std::string_view uniform) const;
 
     std::string name_;
     Handle<destroy> handle_;
     mutable std::map<std::string, GLint, std::less<>> locations_;
+    std::map<unsigned, std::size_t> block_sizes_;  // by binding
 };
 
 }  // namespace tarn

@@ -5,23 +5,22 @@
 
 #include "core/error.h"
 #include "shared/interface/bindings.h"
+#include "shared/interface/constants/display.h"
 
 namespace tarn {
 namespace {
 
-constexpr std::array<DisplayViewInfo, 8> VIEWS = {{
-    {"radiance", "TARN_VIEW_RADIANCE", "The picture: exposed, tone-mapped, sRGB"},
-    {"luminance", "TARN_VIEW_LUMINANCE",
+constexpr std::array<DisplayViewInfo, DISPLAY_VIEW_COUNT> VIEWS = {{
+    {"radiance", "The picture: exposed, tone-mapped, sRGB"},
+    {"luminance",
      "False colour, one step a stop: black 2^-8 or less of middle grey, green at it, white 2^8 or more"},
-    {"albedo", "TARN_VIEW_ALBEDO", "Diffuse albedo + F0, sRGB"},
-    {"emission", "TARN_VIEW_EMISSION",
-     "Light sources, the sky and unlit materials alone, exposed as the picture"},
-    {"geometric normals", "TARN_VIEW_GEOMETRIC_NORMALS", "Triangle normals: red +X, green +Y, blue +Z"},
-    {"shading normals", "TARN_VIEW_SHADING_NORMALS",
-     "Interpolated and mapped normals: red +X, green +Y, blue +Z"},
-    {"position error", "TARN_VIEW_POSITION_ERROR",
+    {"albedo", "Diffuse albedo + F0, sRGB"},
+    {"emission", "Light sources, the sky and unlit materials alone, exposed as the picture"},
+    {"geometric normals", "Triangle normals: red +X, green +Y, blue +Z"},
+    {"shading normals", "Interpolated and mapped normals: red +X, green +Y, blue +Z"},
+    {"position error",
      "False colour of the bound on the position's rounding error: black 1 nm or less, white 1 mm or more"},
-    {"primitives", "TARN_VIEW_PRIMITIVES", "One colour a triangle"},
+    {"primitives", "One colour a triangle"},
 }};
 
 }  // namespace
@@ -50,15 +49,15 @@ DisplayPass::DisplayPass(ProgramLibrary& programs, int width_px, int height_px)
 
 const Texture2D& DisplayPass::record(FrameRecorder& frame, const Texture2D& radiance, const GBuffer& gbuffer,
                                      DisplayView view, float exposure_ev) {
-    const Program& program = programs_.compute("display", {VIEWS[std::size_t(view)].define});
-    program.set("exposure_scale", std::exp2(exposure_ev));
+    const Program& program = programs_.compute(DisplayVariant::PATH, DisplayVariant{view}.defines());
     // Bound directly: these come from a finished frame, whatever recorder made them.
     radiance.bind(UNIT_PASS_A);
-    gbuffer.seen.bind(UNIT_PASS_B);
+    gbuffer.seen->bind(UNIT_PASS_B);
     gbuffer.surface().bind(UNIT_SURFACE);
     frame.pass("display")
+        .constants(DisplayConstants{std::exp2(exposure_ev)})
         .write_image(0, picture_)
-        .dispatch(program, picture_.width_px(), picture_.height_px());
+        .dispatch(program, {picture_.width_px(), picture_.height_px()});
     return picture_;
 }
 

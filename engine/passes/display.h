@@ -10,23 +10,12 @@
 #include "frame/frame_recorder.h"
 #include "gl/program_library.h"
 #include "passes/gbuffer.h"
+#include "plan/shader_variants.h"
 
 namespace tarn {
 
-enum class DisplayView {
-    RADIANCE,
-    LUMINANCE,
-    ALBEDO,
-    EMISSION,
-    GEOMETRIC_NORMALS,
-    SHADING_NORMALS,
-    POSITION_ERROR,
-    PRIMITIVES,
-};
-
 struct DisplayViewInfo {
     const char* name;      // "shading normals"
-    const char* define;    // of the shader variant
     const char* sentence;  // what its colours mean
 };
 

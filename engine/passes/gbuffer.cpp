@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include "passes/culling.h"
 #include "shared/interface/bindings.h"
@@ -58,8 +59,19 @@ struct GBufferPass::Bucket {
     std::vector<DrawCommand> commands;
 };
 
-SurfaceImages::SurfaceImages(int width_px, int height_px)
-    : stack("gbuffer/surface", width_px, height_px, LAYER_COUNT, GL_RGBA32F) {
+struct GBufferPass::Target {
+    explicit Target(const glm::ivec2& size_px)
+        : seen("gbuffer/seen", size_px.x, size_px.y, GL_RG32UI),
+          depth("gbuffer/depth", size_px.x, size_px.y, GL_DEPTH_COMPONENT32F),
+          framebuffer("gbuffer/raster", {&seen}, &depth) {}
+
+    Texture2D seen;
+    Texture2D depth;
+    Framebuffer framebuffer;
+};
+
+SurfaceImages::SurfaceImages(const glm::ivec2& size_px)
+    : stack("gbuffer/surface", size_px.x, size_px.y, LAYER_COUNT, GL_RGBA32F) {
     for (int layer = 0; layer < LAYER_COUNT; ++layer) {
         layers.emplace_back(fmt::format("gbuffer/surface/{}", layer), stack, layer);
     }
@@ -69,15 +81,7 @@ PassRecorder& read_gbuffer(PassRecorder& pass, const GBuffer& gbuffer) {
     return pass.read(UNIT_SURFACE, gbuffer.surface());
 }
 
-GBufferPass::GBufferPass(ProgramLibrary& programs, const GpuScene& gpu_scene, int width_px, int height_px)
-    : programs_(programs),
-      width_px_(width_px),
-      height_px_(height_px),
-      seen_("gbuffer/seen", width_px, height_px, GL_RG32UI),
-      depth_("gbuffer/depth", width_px, height_px, GL_DEPTH_COMPONENT32F),
-      surfaces_([=] { return SurfaceImages(width_px, height_px); }),
-      target_("gbuffer/raster", {&seen_}, &depth_),
-      vertex_array_("gbuffer/vertices") {
+GBufferPass::GBufferPass(const GpuScene& gpu_scene) : vertex_array_("gbuffer/vertices") {
     for (const Culling culling : {Culling::BACK, Culling::BACK_MIRRORED, Culling::NONE}) {
         buckets_.push_back({culling, false, {}});
         buckets_.push_back({culling, true, {}});
@@ -136,23 +140,20 @@ void GBufferPass::issue_draws(bool coverage) const {
     }
 }
 
-GBuffer GBufferPass::record(FrameRecorder& frame, const World& world, const CameraRecord& camera,
-                            const std::vector<std::string>& scene_defines) {
-    collect_draws(world, camera);
-    seen_.clear(glm::uvec4(INVALID_INDEX));
-    depth_.clear(glm::vec4(0.0f));
+Picture GBufferPass::raster(const FrameContext& frame) {
+    const std::shared_ptr<Target> target = targets_.take(
+        fmt::format("{} x {}", frame.size_px.x, frame.size_px.y), [&] { return Target(frame.size_px); });
+    target->seen.clear(glm::uvec4(INVALID_INDEX));
+    target->depth.clear(glm::vec4(0.0f));
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_GREATER);
-    vertex_array_.bind();
-    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_->id());
     const auto draw = [&](bool coverage) {
-        std::vector<std::string> defines = scene_defines;
-        if (coverage) defines.push_back("TARN_COVERAGE");
         frame.pass(coverage ? "gbuffer/raster_coverage" : "gbuffer/raster")
-            .write_target(target_, {&seen_})
-            .draw(programs_.graphics("gbuffer/raster", defines), [&] { issue_draws(coverage); });
+            .write_target(target->framebuffer, {&target->seen})
+            .draw(frame.graphics(RasterVariant{coverage}), vertex_array_, *commands_,
+                  [&] { issue_draws(coverage); });
     };
     const auto has_draws = [&](bool coverage) {
         return std::any_of(buckets_.begin(), buckets_.end(), [&](const Bucket& bucket) {
@@ -163,18 +164,25 @@ GBuffer GBufferPass::record(FrameRecorder& frame, const World& world, const Came
     if (has_draws(true)) draw(true);
     glDisable(GL_CULL_FACE);
     glDisable(GL_DEPTH_TEST);
-
-    resolve(frame, scene_defines);
-    return {seen_, surfaces_.current(), surfaces_.previous()};
+    return Picture(target, &target->seen);
 }
 
-void GBufferPass::resolve(FrameRecorder& frame, const std::vector<std::string>& scene_defines) {
-    const SurfaceImages& images = surfaces_.current();
+GBuffer GBufferPass::record(const FrameContext& frame, const World& world, const CameraRecord& camera,
+                            std::optional<Previous<Surfaces>> previous) {
+    collect_draws(world, camera);
+    const Picture seen = raster(frame);
+    return {seen, resolve(frame, seen), std::move(previous)};
+}
+
+Surfaces GBufferPass::resolve(const FrameContext& frame, const Picture& seen) {
+    const Surfaces surfaces = surfaces_.take(fmt::format("{} x {}", frame.size_px.x, frame.size_px.y),
+                                             [&] { return SurfaceImages(frame.size_px); });
     PassRecorder pass = frame.pass("gbuffer/resolve");
-    pass.read(UNIT_PASS_A, seen_).write(images.stack);
+    pass.read(UNIT_PASS_A, seen).write(surfaces->stack);
     for (int layer = 0; layer < LAYER_COUNT; ++layer)
-        pass.write_image(unsigned(layer), images.layers[std::size_t(layer)]);
-    pass.dispatch(programs_.compute("gbuffer/resolve", scene_defines), width_px_, height_px_);
+        pass.write_image(unsigned(layer), surfaces->layers[std::size_t(layer)]);
+    pass.dispatch(frame.compute(ResolveVariant{}), frame.size_px);
+    return surfaces;
 }
 
 }  // namespace tarn

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "frame/frame_recorder.h"
 #include "frame/history.h"
-#include "gl/program_library.h"
+#include "frame/pool.h"
 #include "gl/vertex_array.h"
+#include "passes/frame_context.h"
 #include "passes/gpu_scene.h"
 #include "shared/interface/bindings.h"
 
@@ -16,19 +16,21 @@ namespace tarn {
 
 // The surface that each pixel sees, RGBA32F. Layout: shaders/passes/gbuffer/resolve.comp.
 struct SurfaceImages {
-    SurfaceImages(int width_px, int height_px);
+    explicit SurfaceImages(const glm::ivec2& size_px);
 
     TextureArray stack;             // all layers, read through one texture unit
     std::vector<Texture2D> layers;  // each alone (LAYER_*)
 };
 
-struct GBuffer {
-    const Texture2D& seen;  // RG32UI: instance, primitive; INVALID_INDEX: nothing
-    const SurfaceImages& images;
-    Past<SurfaceImages> previous;
+using Surfaces = std::shared_ptr<SurfaceImages>;
 
-    const TextureArray& surface() const { return images.stack; }
-    const Texture2D& position() const { return images.layers[LAYER_POSITION]; }
+struct GBuffer {
+    Picture seen;  // RG32UI: instance, primitive; INVALID_INDEX: nothing
+    Surfaces surfaces;
+    std::optional<Previous<Surfaces>> previous;  // what the last frame saw, where it is the one before this
+
+    const TextureArray& surface() const { return surfaces->stack; }
+    const Texture2D& position() const { return surfaces->layers[LAYER_POSITION]; }
 };
 
 // Binds what lib/gbuffer.glsl reads.
@@ -42,33 +44,27 @@ struct GBufferStatistics {
 
 class GBufferPass {
   public:
-    GBufferPass(ProgramLibrary& programs, const GpuScene& gpu_scene, int width_px, int height_px);
+    explicit GBufferPass(const GpuScene& gpu_scene);
     ~GBufferPass();
 
-    // Draws what `camera` sees of `world` and resolves it to surfaces. `scene_defines`: what the scene has
-    // (plan/frame_plan.h).
-    GBuffer record(FrameRecorder& frame, const World& world, const CameraRecord& camera,
-                   const std::vector<std::string>& scene_defines);
-
-    // Ends the frame: the surfaces that it saw become the previous ones.
-    void advance() { surfaces_.advance(); }
+    // Draws what `camera` sees of `world` and resolves it to surfaces. `previous`: the last frame's, handed
+    // on.
+    GBuffer record(const FrameContext& frame, const World& world, const CameraRecord& camera,
+                   std::optional<Previous<Surfaces>> previous);
 
     const GBufferStatistics& statistics() const { return statistics_; }
 
   private:
     struct Bucket;
+    struct Target;
 
     void collect_draws(const World& world, const CameraRecord& camera);
     void issue_draws(bool coverage) const;
-    void resolve(FrameRecorder& frame, const std::vector<std::string>& scene_defines);
+    Picture raster(const FrameContext& frame);
+    Surfaces resolve(const FrameContext& frame, const Picture& seen);
 
-    ProgramLibrary& programs_;
-    int width_px_;
-    int height_px_;
-    Texture2D seen_;
-    Texture2D depth_;
-    History<SurfaceImages> surfaces_;
-    Framebuffer target_;
+    Pool<Target> targets_;
+    Pool<SurfaceImages> surfaces_;
     VertexArray vertex_array_;
     std::unique_ptr<Buffer> draw_ids_;
     std::unique_ptr<Buffer> commands_;

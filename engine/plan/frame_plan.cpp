@@ -1,73 +1,75 @@
 #include "plan/frame_plan.h"
 
-#include <algorithm>
-
-#include "core/error.h"
-#include "shared/math/light.h"
-
 namespace tarn {
 namespace {
 
-// Materials that have a texture in `slot`.
-std::size_t count_slot(const World& world, std::uint32_t slot) {
-    std::size_t count = 0;
-    for (std::size_t m = 0; m < world.material_flags.size(); ++m) {
-        const std::size_t row = m * MATERIAL_ROWS + 4 + 2 * slot;
-        if ((world.material_rows[row].z & SLOT_PRESENT) != 0u) ++count;
-    }
-    return count;
+constexpr glm::vec3 LUMINANCE_WEIGHTS(0.2126f, 0.7152f, 0.0722f);
+
+// `runs`: whether the stage reuses samples at all.
+ReusePlan plan_reuse(const ReuseSettings& settings, bool runs, DebugView view) {
+    ReusePlan plan;
+    if (!runs || settings.reuse == Reuse::NONE) return plan;
+    const bool visibility_is_known = settings.final_visibility != FinalVisibility::TRACED;
+    plan.mis = settings.mis;
+    plan.mis_visibility = settings.mis_visibility;
+    plan.traces_in_mis = settings.traces_in_mis();
+    plan.final_visibility = settings.final_visibility;
+    plan.tests_fresh_samples = settings.visibility_reuse || plan.traces_in_mis || visibility_is_known;
+    plan.drops_occluded = settings.visibility_reuse || plan.traces_in_mis;
+    plan.over_time = settings.reuses_time();
+    plan.filters_boiling = plan.over_time && settings.boiling_filter > 0.0;
+    plan.spatial_steps = settings.reuses_space() ? settings.spatial_iterations : 0;
+    plan.neighbours = settings.neighbours;
+    plan.keeps_temporal = plan.over_time && (plan.spatial_steps == 0 || !settings.feedback);
+    plan.tests_chosen_samples = !visibility_is_known && !plan.traces_in_mis;
+    plan.shades_all_samples =
+        settings.shade == SampleShading::ALL && settings.can_shade_all() && view == DebugView::NONE;
+    return plan;
 }
 
-// Materials with a specular layer: a metal, or a dielectric whose F90 is not 0.
-std::size_t count_specular(const World& world) {
-    std::size_t count = 0;
-    for (std::size_t m = 0; m < world.material_flags.size(); ++m) {
-        const glm::uvec4* rows = &world.material_rows[m * MATERIAL_ROWS];
-        const MaterialRecord record = unpack_material(rows[0], rows[1], rows[2], rows[3]);
-        if (record.metallic > 0.0f || record.dielectric_f90 > 0.0f) ++count;
-    }
-    return count;
+std::vector<glm::vec3> plan_targets(const DirectSettings& settings) {
+    if (!settings.per_channel) return {LUMINANCE_WEIGHTS};
+    return {glm::vec3(1.0f, 0.0f, 0.0f), glm::vec3(0.0f, 1.0f, 0.0f), glm::vec3(0.0f, 0.0f, 1.0f)};
 }
 
-std::size_t count_lights_with(const WorldLights& lights, std::uint32_t flag) {
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < lights.count; ++i) {
-        if ((lights.rows[i * LIGHT_ROWS].w & flag) != 0u) ++count;
-    }
-    return count;
+std::vector<PlannedPass> list_passes(const DirectPlan& plan) {
+    const ReusePlan& reuse = plan.reuse;
+    return {
+        {"lights/tree", plan.light_tree, "lights are drawn by the tree"},
+        {"direct/light_tiles", plan.light_tiles, "candidates come from tiles"},
+        {"direct/brdf_rays", plan.brdf_rays, "one candidate comes from a ray along the BRDF"},
+        {"direct/initial_visibility", reuse.tests_fresh_samples,
+         reuse.drops_occluded ? "occluded fresh samples are dropped" : "reuse asks whether samples are seen"},
+        {"direct/temporal", reuse.over_time, "the last frame's samples are reused"},
+        {"direct/boiling_filter", reuse.filters_boiling, "samples that outweigh their surroundings go"},
+        {"direct/spatial", reuse.spatial_steps > 0, "neighbours' samples are reused"},
+        {"visibility", reuse.tests_chosen_samples,
+         reuse.runs() ? "the chosen samples are traced after all reuse" : "every sample is traced"},
+    };
 }
 
 }  // namespace
 
-std::vector<std::string> FramePlan::defines() const {
-    std::vector<std::string> result;
-    for (const PlanEntry& entry : entries) result.push_back(entry.define);
-    return result;
+DirectPlan plan_direct(const DirectSettings& settings) {
+    DirectPlan plan;
+    plan.brdf_rays = settings.resamples() && settings.brdf_candidate;
+    plan.candidates = {settings.selection(), plan.brdf_rays};
+    plan.light_tiles = plan.candidates.selection == LightSelection::TILES;
+    plan.light_tree = plan.candidates.selection == LightSelection::TREE;
+    plan.candidate_count = settings.resamples() ? settings.candidates : 1;
+    plan.sample_count = settings.sample_count();
+    plan.targets = plan_targets(settings);
+    plan.reuse = plan_reuse(settings.reuse, settings.uses_restir(), settings.debug_view);
+    plan.view = settings.debug_view;
+    return plan;
 }
 
-FramePlan make_plan(const World& world, const PlanHistory& history) {
+FramePlan make_plan(const FeatureSurvey& survey, const RenderSettings& settings) {
     FramePlan plan;
-    const auto add = [&](const char* define, std::size_t count, const char* what) {
-        if (count > 0) plan.entries.push_back({define, fmt::format("{} {}", count, what)});
-    };
-    std::size_t textures = 0;
-    for (const std::uint32_t slot : {SLOT_BASE_COLOR, SLOT_METALLIC_ROUGHNESS, SLOT_NORMAL, SLOT_EMISSION}) {
-        textures += count_slot(world, slot);
-    }
-    if (count_specular(world) == 0)
-        plan.entries.push_back({"TARN_LAMBERT_ONLY", "no material has a specular layer"});
-    const WorldLights& lights = world.lights;
-    add("TARN_TEXTURES", textures, "texture slots in use");
-    add("TARN_NORMAL_MAPS", count_slot(world, SLOT_NORMAL), "materials with a normal map");
-    add("TARN_ENVIRONMENT", std::size_t(world.environment.width) * world.environment.height, "texels of sky");
-    add("TARN_PUNCTUAL_LIGHTS", lights.punctual_count, "punctual lights");
-    add("TARN_TRIANGLE_LIGHTS", lights.count - lights.punctual_count, "emissive triangles");
-    add("TARN_TEXTURED_LIGHTS", count_lights_with(lights, LIGHT_TEXTURED),
-        "emissive triangles with a texture");
-    add("TARN_COVERED_LIGHTS", count_lights_with(lights, LIGHT_COVERED),
-        "emissive triangles of partial coverage");
-    if (history.surfaces_move) plan.entries.push_back({"TARN_MOTION", "surfaces move or deform"});
-    if (history.lights_change) plan.entries.push_back({"TARN_LIGHT_HISTORY", "lights move or change"});
+    plan.features = survey.features;
+    plan.feature_reasons = survey.reasons;
+    plan.direct = plan_direct(settings.direct);
+    plan.passes = list_passes(plan.direct);
     return plan;
 }
 

@@ -1,33 +1,65 @@
-// What this scene needs: the shader variants and passes that run, and why. What a scene lacks costs nothing.
+// What a frame runs, and why: made from the world and the settings before the first pass, followed by all of
+// them.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "world/world.h"
+#include "plan/scene_features.h"
+#include "plan/shader_variants.h"
+#include "settings/settings.h"
 
 namespace tarn {
 
-struct PlanEntry {
-    std::string define;  // shader define
-    std::string reason;  // "7 texture slots in use"
+// Which steps of reuse run, and in which variants; whatever is reused.
+struct ReusePlan {
+    Mis mis = Mis::PAIRWISE;
+    bool mis_visibility = false;
+    bool traces_in_mis = false;  // rays in the denominators of MIS: every kept sample is known to be seen
+    FinalVisibility final_visibility = FinalVisibility::TRACED;
+    bool tests_fresh_samples = false;  // before anyone reuses them
+    bool drops_occluded = false;       // and drops those that are not seen
+    bool over_time = false;
+    bool filters_boiling = false;
+    int spatial_steps = 0;
+    int neighbours = 0;
+    bool keeps_temporal =
+        false;  // the next frame starts from the samples after reuse over time, not over space
+    bool tests_chosen_samples = true;  // after all reuse, by a ray
+    bool shades_all_samples = false;   // the last spatial step sums the light of all its samples
+
+    bool runs() const { return over_time || spatial_steps > 0; }
+    ReuseVariant variant(ReuseRun run) const { return {mis, mis_visibility, final_visibility, run}; }
+};
+
+struct DirectPlan {
+    CandidatesVariant candidates;
+    bool light_tiles = false;
+    bool light_tree = false;
+    bool brdf_rays = false;
+    int candidate_count = 1;
+    int sample_count = 1;            // independent samples a pixel
+    std::vector<glm::vec3> targets;  // weights of the channels in the target: luminance, or each channel
+    ReusePlan reuse;
+    DebugView view = DebugView::NONE;
+};
+
+// A pass that this frame runs or leaves out.
+struct PlannedPass {
+    std::string name;  // as in the timings
+    bool runs = true;
+    std::string reason;  // "--brdf-candidate on"
 };
 
 struct FramePlan {
-    std::vector<PlanEntry> entries;
-
-    // The defines alone, as ProgramLibrary takes them.
-    std::vector<std::string> defines() const;
+    SceneFeatures features;
+    std::vector<FeatureReason> feature_reasons;
+    DirectPlan direct;
+    std::vector<PlannedPass> passes;  // those that not every frame runs
 };
 
-// What may differ from the last frame: shaders that look back tell the two frames apart only where they must.
-struct PlanHistory {
-    bool surfaces_move = false;
-    bool lights_change = false;
+DirectPlan plan_direct(const DirectSettings& settings);
 
-    bool operator==(const PlanHistory&) const = default;
-};
-
-FramePlan make_plan(const World& world, const PlanHistory& history = {});
+FramePlan make_plan(const FeatureSurvey& survey, const RenderSettings& settings);
 
 }  // namespace tarn

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 
-#include "shared/interface/bindings.h"
 #include "shared/interface/frame_block.h"
 #include "shared/math/random.h"
 
 namespace tarn {
 namespace {
 
-std::vector<std::string> join(std::vector<std::string> first, std::vector<std::string> second) {
+Defines join(Defines first, const Defines& second) {
     first.insert(first.end(), second.begin(), second.end());
     return first;
 }
@@ -35,49 +34,49 @@ float depth_parameter(const World& world, const CameraRecord& camera) {
 
 }  // namespace
 
-Renderer::Renderer(World& world, const RayTracer& tracer, int width_px, int height_px,
-                   std::vector<std::string> extra_defines)
+Renderer::Renderer(World& world, const RayTracer& tracer, int width_px, int height_px, Defines extra_defines)
     : world_(world),
       tracer_(tracer),
-      width_px_(width_px),
-      height_px_(height_px),
-      planned_history_{world.is_animated, world.is_animated},
-      plan_(make_plan(world, planned_history_)),
+      size_px_(width_px, height_px),
       extra_defines_(std::move(extra_defines)),
-      defines_(join(plan_.defines(), extra_defines_)),
-      planned_lights_(world.lights.order_revision),
-      planned_materials_(world.material_revision),
+      changes_{world.is_animated, world.is_animated},
+      surveyed_lights_(world.lights.order_revision),
+      surveyed_materials_(world.material_revision),
       gpu_scene_(world),
       frame_block_("frame/block", sizeof(FrameBlock), BufferUse::DYNAMIC),
       counters_("frame/counters", COUNTER_COUNT * sizeof(std::uint32_t), BufferUse::DEVICE),
-      gbuffer_(programs_, gpu_scene_, width_px, height_px),
-      direct_light_(programs_, width_px, height_px) {
+      gbuffer_(gpu_scene_) {
     counters_.clear();
+    survey();
+    plan_ = make_plan(survey_, {});
 }
 
 void Renderer::update() {
     gpu_scene_.update(world_);
-    update_plan();
-}
-
-// A light may have come or gone, a thing have begun to move, and with it what the shaders need.
-void Renderer::update_plan() {
-    const PlanHistory history{world_.is_animated || gpu_scene_.has_moved(),
-                              world_.is_animated || gpu_scene_.have_lights_changed()};
-    if (world_.lights.order_revision == planned_lights_ && world_.material_revision == planned_materials_ &&
-        history == planned_history_)
+    // A light may have come or gone, a thing have begun to move, and with it what the shaders need.
+    const ChangeHistory changes{world_.is_animated || gpu_scene_.has_moved(),
+                                world_.is_animated || gpu_scene_.have_lights_changed()};
+    if (world_.lights.order_revision == surveyed_lights_ && world_.material_revision == surveyed_materials_ &&
+        changes == changes_)
         return;
-    planned_lights_ = world_.lights.order_revision;
-    planned_materials_ = world_.material_revision;
-    planned_history_ = history;
-    plan_ = make_plan(world_, history);
-    defines_ = join(plan_.defines(), extra_defines_);
+    surveyed_lights_ = world_.lights.order_revision;
+    surveyed_materials_ = world_.material_revision;
+    changes_ = changes;
+    survey();
 }
 
-void Renderer::update_light_tree_for(const RenderSettings& settings) {
-    if (settings.selection() != LightSelection::TREE) return;
-    frame_.pass("lights/tree").run_on_cpu([&] { update_light_tree(world_); });
+void Renderer::survey() {
+    survey_ = survey_features(world_, changes_);
+    scene_defines_ = join(survey_.features.defines(), extra_defines_);
+}
+
+void Renderer::fit_light_tree() {
+    recorder_.pass("lights/tree").run_on_cpu([&] { update_light_tree(world_); });
     gpu_light_tree_.update(world_.light_tree);
+}
+
+bool Renderer::has_moved(const CameraRecord& camera) const {
+    return gpu_scene_.is_changing() || !is_same_view(camera, history_.camera);
 }
 
 void Renderer::upload_frame_block(const FrameInput& input) {
@@ -87,56 +86,51 @@ void Renderer::upload_frame_block(const FrameInput& input) {
     block.frame_camera_right = glm::vec4(camera.right, 0.0f);
     block.frame_camera_up = glm::vec4(camera.up, 0.0f);
     block.frame_camera_forward = glm::vec4(camera.forward, depth_parameter(world_, camera));
-    block.frame_size = glm::uvec4(width_px_, height_px_, input.frame, input.seed);
+    block.frame_size = glm::uvec4(size_px_, input.frame, input.seed);
     block.frame_lights =
         glm::uvec4(world_.lights.count, world_.environment.width, world_.environment.height, 0u);
-    block.frame_previous_position = glm::vec4(last_camera_.position, last_camera_.orthographic ? 1.0f : 0.0f);
-    block.frame_previous_right = glm::vec4(last_camera_.right, 0.0f);
-    block.frame_previous_up = glm::vec4(last_camera_.up, 0.0f);
-    block.frame_previous_forward = glm::vec4(last_camera_.forward, 0.0f);
+    block.frame_previous_position =
+        glm::vec4(history_.camera.position, history_.camera.orthographic ? 1.0f : 0.0f);
+    block.frame_previous_right = glm::vec4(history_.camera.right, 0.0f);
+    block.frame_previous_up = glm::vec4(history_.camera.up, 0.0f);
+    block.frame_previous_forward = glm::vec4(history_.camera.forward, 0.0f);
     block.frame_history =
         glm::uvec4(gpu_scene_.previous_first_instance(), gpu_scene_.lights().previous_first_row(),
                    gpu_scene_.lights().remap_first_row(), 0u);
     block.frame_tables = glm::uvec4(gpu_light_tree_.node_count(), 0u, 0u, 0u);
     frame_block_.upload(0, std::span<const FrameBlock>(&block, 1));
-    frame_block_.bind_uniform(BLOCK_FRAME);
+    recorder_.bind_frame_block(frame_block_);
 }
 
 FrameOutput Renderer::render(const FrameInput& input) {
-    const CoverageKey shadow_key{input.frame, input.seed, RAY_SHADOW};
-
-    frame_.begin();
-    update_light_tree_for(input.settings);
+    plan_ = make_plan(survey_, input.settings);
+    recorder_.begin();
+    if (plan_.direct.light_tree) fit_light_tree();  // before the frame block, which counts its nodes
     upload_frame_block(input);
     gpu_scene_.bind();
 
-    const GBuffer gbuffer = gbuffer_.record(frame_, world_, input.camera, defines_);
-    const bool has_moved = gpu_scene_.is_changing() || !is_same_view(input.camera, last_camera_);
-    const bool follows = last_frame_ && input.frame == last_frame_->key.frame + 1;
-    const Texture2D& radiance =
-        direct_light_.record({frame_, tracer_, gbuffer, input.settings, glm::vec3(0.0f), counters_, defines_,
-                              shadow_key, follows ? last_frame_ : std::nullopt, has_moved},
-                             world_, gpu_light_tree_.rows());
+    RayCounts rays;
+    FrameContext frame{recorder_, programs_,      tracer_,        counters_, rays,
+                       plan_,     input.settings, scene_defines_, size_px_};
+    frame.frame = input.frame;
+    frame.seed = input.seed;
+    const bool follows = history_.rays && input.frame == history_.rays->key.frame + 1;
+    if (follows) frame.previous = history_.rays;
+    frame.has_moved = has_moved(input.camera);
 
-    const DirectLight::Rays rays = direct_light_.take_rays();
+    const Values values = record_frame(frame, input.camera);
     rejected_rays_ += rays.shadow.rejected;
-    const FrameTimings timings = frame_.end();
-    advance(input);
-    return {radiance, gbuffer, timings, rays.shadow, rays.closest, gbuffer_.statistics()};
-}
-
-// What this frame saw becomes the past.
-void Renderer::advance(const FrameInput& input) {
-    gbuffer_.advance();
+    const FrameTimings timings = recorder_.end();
+    shown_ = values.radiance;
     gpu_scene_.advance(world_);
-    direct_light_.advance();
-    last_camera_ = input.camera;
-    last_frame_ = PreviousRays{tracer_.geometry_revision(), {input.frame, input.seed, RAY_SHADOW}};
+    history_.camera = input.camera;
+    history_.rays = PreviousRays{tracer_.geometry_revision(), {input.frame, input.seed, RAY_SHADOW}};
+    return {*shown_, values.gbuffer, timings, rays.shadow, rays.closest, gbuffer_.statistics()};
 }
 
 Image Renderer::read_radiance(const Texture2D& radiance) const {
     const std::vector<glm::vec4> texels = radiance.download<glm::vec4>();
-    Image image(width_px_, height_px_, 3);
+    Image image(size_px_.x, size_px_.y, 3);
     for (std::size_t i = 0; i < texels.size(); ++i) {
         for (int channel = 0; channel < 3; ++channel) image.values[3 * i + channel] = texels[i][channel];
     }

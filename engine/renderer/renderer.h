@@ -1,4 +1,4 @@
-// THE FRAME: from a world, a camera and settings to radiance, pass by pass.
+// Draws frames of a world. THE FRAME itself, stage by stage, is in frame.cpp.
 #pragma once
 
 #include <array>
@@ -11,13 +11,14 @@
 #include "core/image.h"
 #include "frame/frame_recorder.h"
 #include "gl/program_library.h"
+#include "passes/frame_context.h"
 #include "passes/gbuffer.h"
 #include "passes/gpu_light_tree.h"
 #include "passes/gpu_scene.h"
 #include "plan/frame_plan.h"
 #include "rays/ray_tracer.h"
-#include "renderer/direct_light.h"
-#include "renderer/settings.h"
+#include "renderer/frame_history.h"
+#include "settings/settings.h"
 
 namespace tarn {
 
@@ -29,7 +30,7 @@ struct FrameInput {
 };
 
 struct FrameOutput {
-    const Texture2D& radiance;  // RGBA32F, row 0 on top, W sr^-1 m^-2
+    const Texture2D& radiance;  // RGBA32F, row 0 on top, W sr^-1 m^-2; until the next frame
     GBuffer gbuffer;
     FrameTimings timings;
     RayBatchResult shadow_rays;
@@ -42,9 +43,9 @@ class Renderer {
   public:
     // Throws Error when the world does not fit the driver's limits. Keeps the world's light tree up to date
     // where settings draw from it, and writes nothing else of it. `world` and `tracer` must outlive the
-    // renderer. `extra_defines` reach every shader: tests plant mistakes with them (TARN_PLANT_*).
-    Renderer(World& world, const RayTracer& tracer, int width_px, int height_px,
-             std::vector<std::string> extra_defines = {});
+    // renderer. `extra_defines` reach every shader of the scene: tests plant mistakes with them
+    // (TARN_PLANT_*).
+    Renderer(World& world, const RayTracer& tracer, int width_px, int height_px, Defines extra_defines = {});
 
     // Uploads what moved; call after update_world and the tracer's update.
     void update();
@@ -53,7 +54,7 @@ class Renderer {
     FrameOutput render(const FrameInput& input);
 
     // Forgets the last frame, as after a cut.
-    void reset_history() { last_frame_.reset(); }
+    void reset_history() { history_.forget(); }
 
     // Waits and reads a radiance texture back as 3 channels.
     Image read_radiance(const Texture2D& radiance) const;
@@ -64,36 +65,42 @@ class Renderer {
     // Recompiles changed shaders; returns the errors of those that keep their old version.
     std::string reload_shaders() { return programs_.reload(); }
 
+    // Of the latest frame.
     const FramePlan& plan() const { return plan_; }
-    int width_px() const { return width_px_; }
-    int height_px() const { return height_px_; }
+    int width_px() const { return size_px_.x; }
+    int height_px() const { return size_px_.y; }
 
   private:
-    void update_plan();
-    void update_light_tree_for(const RenderSettings& settings);
+    struct Values {
+        GBuffer gbuffer;
+        Picture radiance;
+    };
+
+    void survey();
+    Values record_frame(const FrameContext& frame, const CameraRecord& camera);
+    void fit_light_tree();
     void upload_frame_block(const FrameInput& input);
-    void advance(const FrameInput& input);
+    bool has_moved(const CameraRecord& camera) const;
 
     World& world_;
     const RayTracer& tracer_;
-    int width_px_;
-    int height_px_;
-    PlanHistory planned_history_;
+    glm::ivec2 size_px_;
+    Defines extra_defines_;
+    ChangeHistory changes_;
+    FeatureSurvey survey_;
+    Defines scene_defines_;
+    std::uint64_t surveyed_lights_;  // order of the lights that the survey saw
+    std::uint64_t surveyed_materials_;
     FramePlan plan_;
-    std::vector<std::string> extra_defines_;
-    std::vector<std::string> defines_;
-    std::uint64_t planned_lights_;  // order of the lights that the plan saw
-    std::uint64_t planned_materials_;
     ProgramLibrary programs_;
     GpuScene gpu_scene_;
     GpuLightTree gpu_light_tree_;
-    FrameRecorder frame_;
+    FrameRecorder recorder_;
     Buffer frame_block_;
     Buffer counters_;
     GBufferPass gbuffer_;
-    DirectLight direct_light_;
-    std::optional<PreviousRays> last_frame_;  // which it was; none: there is nothing to look back at
-    CameraRecord last_camera_{};
+    FrameHistory history_;
+    Picture shown_;  // the latest radiance
     std::uint64_t rejected_rays_ = 0;
 };
 

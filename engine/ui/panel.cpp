@@ -160,7 +160,7 @@ void draw_counter_section(const ViewerFacts& facts) {
 
 void draw_plan_section(const ViewerFacts& facts) {
     if (facts.plan == nullptr || !begin_section("Plan", false)) return;
-    for (const PlanEntry& entry : facts.plan->entries) {
+    for (const FeatureReason& entry : facts.plan->feature_reasons) {
         show_text(entry.define);
         ImGui::Indent();
         show_wrapped(entry.reason, QUIET_COLOUR);

@@ -10,7 +10,7 @@
 #include "frame/timings.h"
 #include "passes/display.h"
 #include "plan/frame_plan.h"
-#include "renderer/settings.h"
+#include "settings/settings.h"
 
 namespace tarn {
 

@@ -1,7 +1,7 @@
 // A widget for each row of the settings table. Private to this folder.
 #pragma once
 
-#include "renderer/settings.h"
+#include "settings/settings.h"
 
 namespace tarn {
 

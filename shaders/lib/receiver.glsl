@@ -1,10 +1,8 @@
-// A lit point of the picture, and what light samples are worth there: the target function of all resampling.
+// A lit point of the picture, and what light is worth there: the target function of all resampling.
 //
-// After lib/scene_buffers.glsl, lib/frame.glsl and lib/gbuffer.glsl.
+// After lib/scene_buffers.glsl, lib/frame.glsl, lib/gbuffer.glsl and the constants of the pass, whose
+// `target_weights` are Rec. 709 luminance or a single channel.
 #include "shared/math/shadow_ray.h"
-
-// (Rec. 709 luminance, or a single channel) . reflected radiance is the target (p-hat).
-uniform vec3 target_weights = vec3(0.2126f, 0.7152f, 0.0722f);
 
 struct Receiver {
     ShadingPoint point;
@@ -34,16 +32,5 @@ vec3 reflect_at(Receiver r, IncidentLight incident) {
 
 // p-hat without visibility.
 float target_at(Receiver r, IncidentLight incident) {
-    return target_function(reflect_at(r, incident), target_weights);
-}
-
-float sample_target(Receiver r, LightSample drawn) {
-    return target_at(r, load_incident_light(drawn, r.point.position));
-}
-
-// The ray that asks whether the receiver of `pixel` sees `drawn`; inactive where the answer does not matter.
-RayRecord sample_ray(Receiver r, LightSample drawn, ivec2 pixel) {
-    IncidentLight incident = load_incident_light(drawn, r.point.position);
-    if (max_component(incident.value) == 0.0f) return inactive_ray();
-    return make_shadow_ray(r.point, incident, load_light_error(drawn), pixel_index(pixel));
+    return target_function(reflect_at(r, incident), target_weights.xyz);
 }

@@ -1,4 +1,5 @@
 // One view of a finished frame as display-encoded colours; which one, the define says (engine/passes/display.cpp).
+#include "shared/interface/constants/display.h"
 #include "lib/gbuffer.glsl"
 #include "shared/math/display.h"
 #include "shared/math/random.h"
@@ -8,7 +9,6 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = UNIT_PASS_A) uniform sampler2D frame_radiance;
 layout(binding = UNIT_PASS_B) uniform usampler2D seen_triangles;
 layout(binding = 0, rgba8) writeonly uniform image2D out_picture;
-uniform float exposure_scale;
 
 // Black, blue, cyan, green, yellow, red, white for t = 0, 1/6 .. 1.
 vec3 false_colour(float t) {

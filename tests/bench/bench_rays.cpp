@@ -68,7 +68,7 @@ class Bench {
           bare_(loaded_->world, {0, 0, RAY_SHADOW}),
           renderer_(loaded_->world, *loaded_->tracer, WIDTH_PX, HEIGHT_PX) {
         input_.camera = test::first_camera(*loaded_, double(WIDTH_PX) / HEIGHT_PX);
-        input_.settings.direct = DirectMode::RIS;
+        input_.settings.direct.mode = DirectMode::RIS;
         const RayCollector collector;
         Renderer(loaded_->world, collector, WIDTH_PX, HEIGHT_PX).render(input_);
         rays_ = collector.bare_rays();

@@ -9,6 +9,7 @@
 #include "platform/context.h"
 #include "renderer/renderer.h"
 #include "shared/interface/bindings.h"
+#include "shared/interface/constants/boiling_filter.h"
 #include "shared/interface/frame_block.h"
 #include "shared/math/reservoir.h"
 #include "support/draws.h"
@@ -54,7 +55,7 @@ Noise measure_noise(const RenderSettings& settings, std::vector<std::string> pla
 // Four samples a pixel have the mean of one and a quarter of its variance: they are independent.
 void expect_quarter(RenderSettings settings) {
     const Noise one = measure_noise(settings);
-    settings.samples = 4;
+    settings.direct.samples = 4;
     const Noise four = measure_noise(settings);
     EXPECT_NEAR(four.mean, one.mean, 4.0 * std::hypot(one.error, four.error));
     EXPECT_NEAR(four.variance / one.variance, 0.25, 0.02);
@@ -62,29 +63,29 @@ void expect_quarter(RenderSettings settings) {
 
 TEST(SamplesAPixel, OfOneLightAtRandomAreIndependent) {
     RenderSettings settings;
-    settings.direct = DirectMode::UNIFORM;
+    settings.direct.mode = DirectMode::UNIFORM;
     expect_quarter(settings);
 }
 
 TEST(SamplesAPixel, OfSeveralCandidatesAreIndependent) {
     RenderSettings settings;
-    settings.candidates = 4;
-    settings.brdf_candidate = true;
+    settings.direct.candidates = 4;
+    settings.direct.brdf_candidate = true;
     expect_quarter(settings);
 }
 
 TEST(SamplesAPixel, ForEachChannelAreIndependent) {
     RenderSettings settings;
-    settings.candidates = 4;
-    settings.per_channel = true;
+    settings.direct.candidates = 4;
+    settings.direct.per_channel = true;
     expect_quarter(settings);
 }
 
 TEST(SamplesAPixel, NegativeControlTheSameNumbersForEachAreFound) {
     RenderSettings settings;
-    settings.direct = DirectMode::UNIFORM;
+    settings.direct.mode = DirectMode::UNIFORM;
     const Noise one = measure_noise(settings);
-    settings.samples = 4;
+    settings.direct.samples = 4;
     const Noise four = measure_noise(settings, {"TARN_PLANT_SAME_SAMPLES"});
     EXPECT_GT(four.variance / one.variance, 0.9);
 }
@@ -104,7 +105,6 @@ Reservoirs draw_reservoirs(int width_px, int height_px) {
         Reservoir r = empty_reservoir();
         r.confidence = 8.0f;
         if (draws.uniform() < 0.8) {
-            r.chosen.light = std::uint32_t(i);
             r.target = float(std::pow(10.0, draws.uniform(-3.0, 1.0)));
             r.contribution_weight = float(std::pow(10.0, draws.uniform(-1.0, 2.0)));
         }
@@ -117,7 +117,7 @@ std::vector<Reservoir> filter_on_gl(const Reservoirs& in, float limit) {
     std::vector<glm::uvec4> rows;
     for (const Reservoir& r : in.values) {
         glm::uvec4 row0, row1;
-        pack_reservoir(r, row0, row1);
+        pack_reservoir(r, glm::uvec3(INVALID_INDEX, 0u, 0u), row0, row1);
         rows.push_back(row0);
         rows.push_back(row1);
     }
@@ -130,7 +130,10 @@ std::vector<Reservoir> filter_on_gl(const Reservoirs& in, float limit) {
     frame.bind_uniform(BLOCK_FRAME);
     ProgramLibrary programs;
     const Program& program = programs.compute("direct/boiling_filter");
-    program.set("limit", limit);
+    const BoilingFilterConstants constants{limit};
+    Buffer constants_buffer("constants", sizeof(glm::vec4), BufferUse::DYNAMIC);
+    constants_buffer.upload(0, std::span<const BoilingFilterConstants>(&constants, 1));
+    constants_buffer.bind_uniform(BLOCK_PASS);
     program.use();
     buffer.texture().bind(UNIT_PASS_A);
     buffer.buffer().bind_storage(0);

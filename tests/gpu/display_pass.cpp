@@ -31,25 +31,25 @@ std::vector<glm::vec4> make_radiance() {
 class DisplayPassTest : public testing::Test {
   protected:
     DisplayPassTest() : context_(create_context({})) {
-        for (Texture2D& layer : surfaces_.current().layers) layer.clear(glm::vec4(0.0f));
-        seen_.clear(glm::uvec4(INVALID_INDEX));
+        for (Texture2D& layer : surfaces_->layers) layer.clear(glm::vec4(0.0f));
+        seen_->clear(glm::uvec4(INVALID_INDEX));
         radiance_.upload(make_radiance());
     }
 
     std::vector<glm::u8vec4> show(DisplayView view, float exposure_ev) {
-        const GBuffer gbuffer{seen_, surfaces_.current(), surfaces_.previous()};
+        const GBuffer gbuffer{seen_, surfaces_, std::nullopt};
         frame_.begin();
         const Texture2D& picture = pass_.record(frame_, radiance_, gbuffer, view, exposure_ev);
         frame_.end();
         return picture.download<glm::u8vec4>();
     }
 
-    Texture2D& layer(int index) { return surfaces_.current().layers[std::size_t(index)]; }
+    Texture2D& layer(int index) { return surfaces_->layers[std::size_t(index)]; }
 
     std::unique_ptr<Context> context_;
     Texture2D radiance_{"test/radiance", WIDTH, HEIGHT, GL_RGBA32F};
-    Texture2D seen_{"test/seen", WIDTH, HEIGHT, GL_RG32UI};
-    History<SurfaceImages> surfaces_{[] { return SurfaceImages(WIDTH, HEIGHT); }};
+    Picture seen_ = std::make_shared<Texture2D>("test/seen", WIDTH, HEIGHT, GL_RG32UI);
+    Surfaces surfaces_ = std::make_shared<SurfaceImages>(glm::ivec2(WIDTH, HEIGHT));
     ProgramLibrary programs_;
     FrameRecorder frame_;
     DisplayPass pass_{programs_, WIDTH, HEIGHT};
@@ -94,7 +94,7 @@ TEST_F(DisplayPassTest, LuminanceIsGreenAtMiddleGrey) {
 }
 
 TEST_F(DisplayPassTest, NormalsPointIntoTheirColours) {
-    seen_.clear(glm::uvec4(1, 2, 0, 0));
+    seen_->clear(glm::uvec4(1, 2, 0, 0));
     layer(LAYER_NORMALS).clear(glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));  // octahedral: geometric +X, shading +Y
     EXPECT_EQ(show(DisplayView::GEOMETRIC_NORMALS, 0.0f)[0].x, 255);
     EXPECT_EQ(show(DisplayView::SHADING_NORMALS, 0.0f)[0].y, 255);

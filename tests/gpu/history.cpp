@@ -102,7 +102,7 @@ TEST_F(History, AGapOfFramesLeavesNoPast) {
 
 TEST_F(History, ReservoirsDoNotOutliveFramesOfAnotherMethod) {
     RenderSettings other = settings_of("unbiased");
-    other.direct = DirectMode::RIS;
+    other.direct.mode = DirectMode::RIS;
     for (const char* preset : {"fast", "unbiased"}) {
         for (const int pause : {1, 2, 5}) {
             Stage stage(make_moving_things(0.02, lambert_material(glm::vec3(0.5f))));
@@ -119,7 +119,7 @@ TEST_F(History, ReservoirsDoNotOutliveFramesOfAnotherMethod) {
 // A reservoir that was weighed by other rules has another density.
 TEST_F(History, ReservoirsOfAnotherMeaningAreNoPast) {
     RenderSettings per_channel = settings_of("unbiased");
-    per_channel.per_channel = true;
+    per_channel.direct.per_channel = true;
     const std::vector<std::pair<RenderSettings, RenderSettings>> switches = {
         {settings_of("balanced"), settings_of("unbiased")},
         {settings_of("student"), settings_of("balanced")},
@@ -143,7 +143,7 @@ TEST_F(History, WeightsOverTimeSumToOne) {
         Stage stage(moving);
         Renderer renderer(stage.world_, *stage.tracer_, WIDTH_PX, HEIGHT_PX, {"TARN_CHECK_MIS", planted});
         RenderSettings settings = settings_of("unbiased");
-        settings.mis = mis;
+        settings.direct.reuse.mis = mis;
         for (int frame = 0; frame < 5; ++frame) {
             stage.move_to(frame);
             const glm::mat3 turn(glm::rotate(glm::dmat4(1.0), 0.05, glm::dvec3(0, 1, 0)));
@@ -192,8 +192,8 @@ TEST_F(History, TheGBufferSaysWhereSurfacesWere) {
             renderer.update();
             const GBuffer gbuffer = renderer.render({stage.camera_, std::uint32_t(frame), 7, {}}).gbuffer;
             if (frame == 0) continue;  // nothing was drawn before
-            const auto seen = gbuffer.seen.download<glm::uvec2>();
-            const auto motion = gbuffer.images.layers[LAYER_MOTION].download<glm::vec4>();
+            const auto seen = gbuffer.seen->download<glm::uvec2>();
+            const auto motion = gbuffer.surfaces->layers[LAYER_MOTION].download<glm::vec4>();
             const auto position = gbuffer.position().download<glm::vec4>();
             int moved = 0;
             for (std::uint32_t pixel = 0; pixel < seen.size(); ++pixel) {

@@ -27,6 +27,7 @@ const char* const PRELUDE = R"(
 #include "shared/interface/records.h"
 #include "shared/math/alias_table.h"
 #include "shared/math/light.h"
+#include "shared/math/light_sample.h"
 #include "shared/math/reservoir.h"
 layout(local_size_x = 64) in;
 )";

@@ -10,6 +10,7 @@
 #include "shared/interface/records.h"
 #include "shared/math/alias_table.h"
 #include "shared/math/light.h"
+#include "shared/math/light_sample.h"
 #include "shared/math/reservoir.h"
 
 namespace tarn::test {
@@ -198,28 +199,32 @@ inline Record light_record() {
 inline Record reservoir_record() {
     Record r{"reservoir", RESERVOIR_ROWS, "ufffffff", {}, {}, {}, {}};
     r.glsl_unpack = R"(
+        LightSample chosen = unpack_light_sample(row(0u).xyz);
         Reservoir r = unpack_reservoir(row(0u), row(1u));
-        put(r.chosen.light); put(r.chosen.uv); put(r.contribution_weight); put(r.confidence);
+        put(chosen.light); put(chosen.uv); put(r.contribution_weight); put(r.confidence);
         put(r.target); put(r.visibility); put(r.age);)";
     r.glsl_pack = R"(
-        Reservoir r; r.chosen.light = take(); r.chosen.uv = take2(); r.contribution_weight = take1();
+        LightSample chosen; Reservoir r;
+        chosen.light = take(); chosen.uv = take2(); r.contribution_weight = take1();
         r.confidence = take1(); r.target = take1(); r.visibility = take1(); r.age = take1();
-        uvec4 a, b; pack_reservoir(r, a, b); store(0u, a); store(1u, b);)";
+        uvec4 a, b; pack_reservoir(r, pack_light_sample(chosen), a, b); store(0u, a); store(1u, b);)";
     r.pack = [](FieldReader& in, glm::uvec4* rows) {
+        LightSample chosen;
         Reservoir reservoir;
-        reservoir.chosen.light = in.take();
-        reservoir.chosen.uv = in.take2();
+        chosen.light = in.take();
+        chosen.uv = in.take2();
         reservoir.contribution_weight = in.take1();
         reservoir.confidence = in.take1();
         reservoir.target = in.take1();
         reservoir.visibility = in.take1();
         reservoir.age = in.take1();
-        pack_reservoir(reservoir, rows[0], rows[1]);
+        pack_reservoir(reservoir, pack_light_sample(chosen), rows[0], rows[1]);
     };
     r.unpack = [](const glm::uvec4* rows, FieldWriter& out) {
         const Reservoir reservoir = unpack_reservoir(rows[0], rows[1]);
-        out.put(reservoir.chosen.light);
-        out.put(reservoir.chosen.uv);
+        const LightSample chosen = unpack_light_sample(glm::uvec3(rows[0]));
+        out.put(chosen.light);
+        out.put(chosen.uv);
         out.put(reservoir.contribution_weight);
         out.put(reservoir.confidence);
         out.put(reservoir.target);

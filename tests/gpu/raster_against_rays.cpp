@@ -33,7 +33,7 @@ class RasterAgainstRays : public testing::Test {
         FrameInput input;
         input.camera = camera;
         const FrameOutput output = renderer.render(input);
-        const auto seen = output.gbuffer.seen.download<glm::uvec2>();
+        const auto seen = output.gbuffer.seen->download<glm::uvec2>();
         const auto position = output.gbuffer.position().download<glm::vec4>();
         Agreement a;
         for (int y = 0; y < HEIGHT_PX; ++y) {

@@ -110,12 +110,12 @@ double share_of_same_samples(const Image& before, const Image& after) {
 double share_of_kept_samples(int age_cap, int frames_apart, double confidence_cap = 1000.0) {
     constexpr int WARM_UP = 24;
     ToyRender render(make_lamp_stage(1.0f).scene, WIDTH_PX, HEIGHT_PX);
-    render.settings.reuse = Reuse::TEMPORAL;
-    render.settings.mis = Mis::SHARE;
-    render.settings.candidates = 128;  // weights that are next to alike
-    render.settings.confidence_cap = confidence_cap;
-    render.settings.age_cap = age_cap;
-    render.settings.debug_view = DebugView::SAMPLES;
+    render.settings.direct.reuse.reuse = Reuse::TEMPORAL;
+    render.settings.direct.reuse.mis = Mis::ONE_OVER_M;
+    render.settings.direct.candidates = 128;  // weights that are next to alike
+    render.settings.direct.reuse.confidence_cap = confidence_cap;
+    render.settings.direct.reuse.age_cap = age_cap;
+    render.settings.direct.debug_view = DebugView::SAMPLES;
     const CameraRecord camera = look_at_stage(render);
     render.render(camera, DirectMode::RESTIR, WARM_UP);
     const Image before = render.render(camera, DirectMode::RESTIR, 1, WARM_UP);
@@ -142,12 +142,12 @@ TEST_F(RestirHazards, TheCapOnConfidenceDecidesHowOftenSamplesAreReplaced) {
 TEST_F(RestirHazards, AMovingCameraShortensThePast) {
     constexpr int FRAMES = 12;
     ToyRender render(make_lamp_stage(1.0f).scene, WIDTH_PX, HEIGHT_PX);
-    render.settings.reuse = Reuse::TEMPORAL;
-    render.settings.mis = Mis::SHARE;
-    render.settings.candidates = 128;
-    render.settings.motion_cap = 4.0;
-    render.settings.confidence_cap = 1000.0;
-    render.settings.debug_view = DebugView::SAMPLES;
+    render.settings.direct.reuse.reuse = Reuse::TEMPORAL;
+    render.settings.direct.reuse.mis = Mis::ONE_OVER_M;
+    render.settings.direct.candidates = 128;
+    render.settings.direct.reuse.motion_cap = 4.0;
+    render.settings.direct.reuse.confidence_cap = 1000.0;
+    render.settings.direct.debug_view = DebugView::SAMPLES;
     CameraRecord camera = look_at_stage(render);
     Image before, after;
     for (int frame = 0; frame < FRAMES; ++frame) {
@@ -198,8 +198,8 @@ double mirrored_light(Reuse reuse, Mis mis, const std::vector<std::string>& plan
                  {1, 0, 0}, {0, 0, 1});
     ToyRender render(toy.scene, WIDTH_PX, HEIGHT_PX, {}, planted);
     render.settings = find_preset("unbiased").settings;
-    render.settings.reuse = reuse;
-    render.settings.mis = mis;
+    render.settings.direct.reuse.reuse = reuse;
+    render.settings.direct.reuse.mis = mis;
     return mean_of(render.render(look_at_stage(render), DirectMode::RESTIR, FRAMES));
 }
 
@@ -207,9 +207,9 @@ double mirrored_light(Reuse reuse, Mis mis, const std::vector<std::string>& plan
 TEST_F(RestirHazards, MirrorsKeepTheirEnergyAmongNeighbours) {
     const double alone = mirrored_light(Reuse::NONE, Mis::PAIRWISE);
     EXPECT_GT(alone, 1e-4);
-    for (const Mis mis : {Mis::COUNT, Mis::BALANCE, Mis::PAIRWISE})
+    for (const Mis mis : {Mis::ONE_OVER_Z, Mis::BALANCE, Mis::PAIRWISE})
         EXPECT_NEAR(mirrored_light(Reuse::SPATIAL, mis) / alone, 1.0, 0.02) << int(mis);
-    EXPECT_LT(mirrored_light(Reuse::SPATIAL, Mis::COUNT, {"TARN_PLANT_COUNT_MIRRORS"}) / alone, 0.9);
+    EXPECT_LT(mirrored_light(Reuse::SPATIAL, Mis::ONE_OVER_Z, {"TARN_PLANT_COUNT_MIRRORS"}) / alone, 0.9);
 }
 
 }  // namespace

@@ -107,7 +107,7 @@ void render_sequence(const ImageSequence& sequence, const ImageSink& sink,
     }
     Renderer renderer(scene->world, *scene->tracer, GOLDEN_WIDTH_PX, GOLDEN_HEIGHT_PX, planted);
     FrameInput input;
-    input.settings.direct = sequence.mode;
+    input.settings.direct.mode = sequence.mode;
     for (int frame = 1; frame <= sequence.frames.back(); ++frame) {
         const double time_s = FRAME_S * (frame - 1);
         update_world(scene->world, scene->scene, time_s);

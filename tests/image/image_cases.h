@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "image/image_compare.h"
-#include "renderer/settings.h"
+#include "settings/settings.h"
 
 namespace tarn::test {
 

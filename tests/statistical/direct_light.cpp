@@ -13,7 +13,7 @@ constexpr int SEEDS_TO_FIND_A_BUG = 32;
 
 class DirectLight : public DirectLightTest {
   protected:
-    void SetUp() override { prepare(double(RenderSettings{}.candidates) * FRAMES * SEEDS); }
+    void SetUp() override { prepare(double(RenderSettings{}.direct.candidates) * FRAMES * SEEDS); }
 
     static bool is_large() { return case_->scene().world.lights.count > 1000; }
 
@@ -34,8 +34,8 @@ class DirectLight : public DirectLightTest {
         Renderer renderer(scene.world, *scene.tracer, WIDTH_PX, HEIGHT_PX, planted);
         FrameInput input;
         input.camera = case_->camera();
-        input.settings.direct = mode;
-        input.settings.brdf_candidate = brdf_candidate;
+        input.settings.direct.mode = mode;
+        input.settings.direct.brdf_candidate = brdf_candidate;
         TileSamples samples(WIDTH_PX, HEIGHT_PX, DirectLightCase::tile_px(GetParam()));
         for (int seed = 0; seed < seeds; ++seed) {
             input.seed = std::uint32_t(seed) + 1000u;

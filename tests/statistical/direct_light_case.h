@@ -88,7 +88,7 @@ class DirectLightCase {
         input.camera = camera_;
         std::set<std::uint32_t> found;
         for (input.frame = 0; input.frame < 32; ++input.frame) {
-            const auto seen = renderer.render(input).gbuffer.seen.download<glm::uvec2>();
+            const auto seen = renderer.render(input).gbuffer.seen->download<glm::uvec2>();
             for (std::uint32_t pixel = 0; pixel < seen.size(); ++pixel) {
                 if (seen[pixel] != trace_seen(pixel, input.frame)) found.insert(pixel);
             }

@@ -131,7 +131,7 @@ class MotionTest : public testing::Test {
     static std::set<std::uint32_t> find_silhouettes(World& world, const RayTracer& tracer,
                                                     const CameraRecord& camera) {
         Renderer renderer(world, tracer, WIDTH_PX, HEIGHT_PX);
-        const auto seen = renderer.render({camera, 0, 0, {}}).gbuffer.seen.download<glm::uvec2>();
+        const auto seen = renderer.render({camera, 0, 0, {}}).gbuffer.seen->download<glm::uvec2>();
         std::set<std::uint32_t> found;
         for (std::uint32_t pixel = 0; pixel < seen.size(); ++pixel) {
             const glm::vec2 centre(float(pixel % WIDTH_PX) + 0.5f, float(pixel / WIDTH_PX) + 0.5f);
@@ -162,7 +162,7 @@ class MotionTest : public testing::Test {
             renderer_->update();
             if (frame == 0) renderer_->reset_history();
             const RenderSettings settings = method_.settings(frame);
-            if (!settings.reuses() && frame != LAST_FRAME && !method_.draws_all_frames) return;
+            if (!settings.direct.reuses() && frame != LAST_FRAME && !method_.draws_all_frames) return;
             const FrameOutput output = renderer_->render({camera, std::uint32_t(frame), seed, settings});
             if (frame != LAST_FRAME) return;
             Image image = renderer_->read_radiance(output.radiance);
@@ -200,9 +200,10 @@ inline std::unique_ptr<Context> MotionTest::context_;
 inline MotionMethod unbiased(const std::string& name, Mis mis = Mis::PAIRWISE,
                              const std::function<void(RenderSettings&)>& change = {}) {
     RenderSettings settings = find_preset("unbiased").settings;
-    settings.mis = mis;
-    settings.candidates = 64;
-    settings.motion_cap = settings.confidence_cap;  // a long history shows its faults
+    settings.direct.reuse.mis = mis;
+    settings.direct.candidates = 64;
+    settings.direct.reuse.motion_cap =
+        settings.direct.reuse.confidence_cap;  // a long history shows its faults
     if (change) change(settings);
     return {name, [settings](int) { return settings; }};
 }

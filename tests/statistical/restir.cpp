@@ -25,7 +25,7 @@ constexpr int MOVING_FRAMES = 12;
 
 RenderSettings unbiased_settings(Mis mis) {
     RenderSettings settings = find_preset("unbiased").settings;
-    settings.mis = mis;
+    settings.direct.reuse.mis = mis;
     return settings;
 }
 
@@ -35,7 +35,7 @@ class Restir : public DirectLightTest {
         const bool is_large =
             GetParam() == std::string("lantern_court") || GetParam() == std::string("CyberpunkManyLights");
         if (is_large && !is_thorough()) GTEST_SKIP() << "takes minutes; TARN_TEST_SEEDS=32 runs it";
-        prepare(double(unbiased_settings(Mis::BALANCE).candidates) * first_frame_seed_count());
+        prepare(double(unbiased_settings(Mis::BALANCE).direct.candidates) * first_frame_seed_count());
     }
 
     Renderer make_renderer(const std::vector<std::string>& defines) {
@@ -158,7 +158,7 @@ TEST_P(Restir, PairwiseHasTheReferencesMean) {
 }
 
 TEST_P(Restir, CountHasTheReferencesMean) {
-    expect_all_pass(Mis::COUNT, "count");
+    expect_all_pass(Mis::ONE_OVER_Z, "count");
 }
 
 TEST_P(Restir, AMovingCameraKeepsTheReferencesMean) {
@@ -187,7 +187,7 @@ class RestirBugs : public Restir {};
 TEST_P(RestirBugs, AreFoundWhicheverTheWeights) {
     for (const char* bug :
          {"TARN_PLANT_SKIP_CONFIDENCE", "TARN_PLANT_TARGET_AT_NEIGHBOUR", "TARN_PLANT_DROP_NORMALIZATION"}) {
-        for (const Mis mis : {Mis::COUNT, Mis::BALANCE, Mis::PAIRWISE}) {
+        for (const Mis mis : {Mis::ONE_OVER_Z, Mis::BALANCE, Mis::PAIRWISE}) {
             const std::vector<TileTest> tests = run_still(
                 unbiased_settings(mis), fmt::format("{} {}", bug, int(mis)), LATER_FRAMES[0], {bug});
             EXPECT_FALSE(tests.back().passes) << bug << " with mis " << int(mis);

@@ -104,7 +104,7 @@ class RestirChanges : public testing::Test {
   protected:
     RestirChanges() : context_(create_context({})) {
         input_.settings = find_preset("unbiased").settings;
-        input_.settings.candidates = 64;  // less noise for a bias to hide in
+        input_.settings.direct.candidates = 64;  // less noise for a bias to hide in
         input_.camera = stage_.camera_;
     }
 

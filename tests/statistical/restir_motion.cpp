@@ -36,7 +36,7 @@ TEST_F(RestirMotion, NegativeControlRaysOfTheLastFrameInPresentGeometryAreFound)
 
 // 1/Z weighs all alike that could have drawn a sample, and is the noisiest.
 TEST_F(RestirMotion, LampsThatGrowOrCircleByCount) {
-    const MotionMethod count = unbiased("count", Mis::COUNT);
+    const MotionMethod count = unbiased("count", Mis::ONE_OVER_Z);
     expect_no_bias(make_breathing_lamp(0.1), {count}, 3 * SEEDS);
     expect_no_bias(make_many_lamps(0.02), {count}, 4 * SEEDS);
 }
@@ -83,7 +83,7 @@ TEST_F(RestirMotion, ManyLampsInColour) {
 }
 
 TEST_F(RestirMotion, ASampleForEachChannel) {
-    const auto per_channel = [](RenderSettings& settings) { settings.per_channel = true; };
+    const auto per_channel = [](RenderSettings& settings) { settings.direct.per_channel = true; };
     expect_no_bias(make_many_lamps(0.02), {unbiased("pairwise, per channel", Mis::PAIRWISE, per_channel)});
 }
 
@@ -92,7 +92,7 @@ TEST_F(RestirMotion, MethodsThatTakeTurns) {
     const RenderSettings last = unbiased("").settings(LAST_FRAME);
     const auto turns = [&](const char* other, int from, int to) {
         RenderSettings between = find_preset("balanced").settings;
-        if (other == std::string("ris")) between.direct = DirectMode::RIS;
+        if (other == std::string("ris")) between.direct.mode = DirectMode::RIS;
         if (other == std::string("student")) between = find_preset("student").settings;
         return MotionMethod{fmt::format("{} in frames {} to {}", other, from, to),
                             [=](int frame) { return frame >= from && frame <= to ? between : last; },

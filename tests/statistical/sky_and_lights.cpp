@@ -10,19 +10,19 @@ class SkyAndLights : public MotionTest {};
 
 MotionMethod single(const std::string& name, DirectMode mode) {
     RenderSettings settings;
-    settings.direct = mode;
-    settings.samples = mode == DirectMode::UNIFORM ? 80 : 64;
+    settings.direct.mode = mode;
+    settings.direct.samples = mode == DirectMode::UNIFORM ? 80 : 64;
     return {name, [settings](int) { return settings; }};
 }
 
 MotionMethod ris(const std::string& name, LightSelection selection, bool brdf_candidate) {
     RenderSettings settings;
-    settings.direct = DirectMode::RIS;
-    settings.light_selection = selection;
-    settings.brdf_candidate = brdf_candidate;
+    settings.direct.mode = DirectMode::RIS;
+    settings.direct.light_selection = selection;
+    settings.direct.brdf_candidate = brdf_candidate;
     // A quarter of them is no whole number. Few beside the BRDF's, so that its share of the light is large.
-    settings.candidates = brdf_candidate ? 3 : 14;
-    settings.samples = brdf_candidate || selection == LightSelection::UNIFORM ? 16 : 8;
+    settings.direct.candidates = brdf_candidate ? 3 : 14;
+    settings.direct.samples = brdf_candidate || selection == LightSelection::UNIFORM ? 16 : 8;
     return {name, [settings](int) { return settings; }};
 }
 
@@ -45,16 +45,16 @@ TEST_F(SkyAndLights, RisHasNoBias) {
 TEST_F(SkyAndLights, RestirHasNoBias) {
     const auto select = [](LightSelection selection, bool brdf_candidate) {
         return [=](RenderSettings& settings) {
-            settings.light_selection = selection;
-            settings.brdf_candidate = brdf_candidate;
-            if (selection == LightSelection::TREE) settings.candidates = 8;
+            settings.direct.light_selection = selection;
+            settings.direct.brdf_candidate = brdf_candidate;
+            if (selection == LightSelection::TREE) settings.direct.candidates = 8;
         };
     };
     expect_no_bias(make_lamps_under_a_sky(),
                    {unbiased("tree, brdf", Mis::PAIRWISE, select(LightSelection::TREE, true)),
                     unbiased("uniform", Mis::PAIRWISE, select(LightSelection::UNIFORM, false)),
                     unbiased("tiles, brdf, per channel", Mis::PAIRWISE,
-                             [](RenderSettings& settings) { settings.per_channel = true; })},
+                             [](RenderSettings& settings) { settings.direct.per_channel = true; })},
                    SEEDS);
     expect_within_bounds(make_lamps_under_a_sky());
 }
@@ -79,7 +79,7 @@ double frame_deviation(DirectMode mode, const std::vector<std::string>& planted)
     Renderer renderer(world, *tracer, WIDTH_PX, HEIGHT_PX, planted);
     FrameInput input;
     input.camera = look_at(world, still.camera_ws, still.target_ws, 45.0, double(WIDTH_PX) / HEIGHT_PX);
-    input.settings.direct = mode;
+    input.settings.direct.mode = mode;
     RunningMoments energy;
     for (input.frame = 0; input.frame < 64; ++input.frame) {
         const Image image = renderer.read_radiance(renderer.render(input).radiance);

@@ -61,7 +61,7 @@ class ToyRender {
         FrameInput input;
         input.camera = camera;
         input.settings = settings;
-        input.settings.direct = mode;
+        input.settings.direct.mode = mode;
         std::vector<double> sums(std::size_t(width_px()) * std::size_t(height_px()) * 3);
         for (int frame = 0; frame < frames; ++frame) {
             input.frame = std::uint32_t(first_frame + frame);
@@ -73,7 +73,7 @@ class ToyRender {
                 sums[i] += image.values[i];
             }
             EXPECT_EQ(bad, 0u) << "values that are negative or not finite in frame " << frame;
-            if (frame == 0) seen_ = output.gbuffer.seen.download<glm::uvec2>();
+            if (frame == 0) seen_ = output.gbuffer.seen->download<glm::uvec2>();
         }
         for (const auto& [name, value] : renderer_.read_counters()) EXPECT_EQ(value, 0u) << name;
         Image mean(width_px(), height_px(), 3);

@@ -57,7 +57,7 @@ class ToySource : public FrameSource {
             {"toy/raster", take_ms(1.0)},
             {"toy/resolve", take_ms(1.0)},
             {"toy/trace", take_ms(1.0)},
-            {"toy/shade", take_ms(fault.shading_slowdown * (2.0 + 0.05 * settings.candidates))}};
+            {"toy/shade", take_ms(fault.shading_slowdown * (2.0 + 0.05 * settings.direct.candidates))}};
         for (const PassTiming& pass : result.timings.passes) result.timings.frame_ms += pass.ms;
         result.rays = result.radiance.pixel_count();
         return result;

@@ -32,7 +32,7 @@ TEST(Methods, EveryRowOfTheTableIsAMethodByItsOwnName) {
 
 TEST(Methods, SettingsFollowTheColon) {
     const Method method = parse_method("ris:candidates=7");
-    EXPECT_EQ(method.settings.candidates, 7);
+    EXPECT_EQ(method.settings.direct.candidates, 7);
     EXPECT_EQ(method.label, "ris:candidates=7");
 }
 

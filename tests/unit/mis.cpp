@@ -39,7 +39,7 @@ enum class Bug { NONE, SKIP_CONFIDENCE, COUNT_DEAD, TARGET_AT_NEIGHBOUR, DROP_NO
 double weight(const ToyStep& s, uint mis, int technique, int sample, Bug bug) {
     const auto target = [&](int t) { return float(s.target[t][sample]); };
     const float own = bug == Bug::SKIP_CONFIDENCE && technique > 0 ? 1.0f : float(s.confidence[technique]);
-    if (mis == MIS_CONSTANT || mis == MIS_COUNT) return own;
+    if (mis == MIS_ONE_OVER_M || mis == MIS_ONE_OVER_Z) return own;
     if (bug == Bug::DROP_NORMALIZATION) return 1.0;
     if (mis == MIS_BALANCE) {
         float sum = 0.0f;
@@ -61,12 +61,12 @@ double weight(const ToyStep& s, uint mis, int technique, int sample, Bug bug) {
 }
 
 double normalization(const ToyStep& s, uint mis, int sample, Bug bug) {
-    if ((mis != MIS_CONSTANT && mis != MIS_COUNT) || bug == Bug::DROP_NORMALIZATION) return 1.0;
+    if ((mis != MIS_ONE_OVER_M && mis != MIS_ONE_OVER_Z) || bug == Bug::DROP_NORMALIZATION) return 1.0;
     double sum = 0.0;
     for (int t = 0; t < TECHNIQUES; ++t) {
         if (!s.joined[t] && bug != Bug::COUNT_DEAD) continue;
-        sum += mis == MIS_CONSTANT ? s.confidence[t]
-                                   : count_term(float(s.confidence[t]), float(s.target[t][sample]));
+        sum += mis == MIS_ONE_OVER_M ? s.confidence[t]
+                                     : z_term(float(s.confidence[t]), float(s.target[t][sample]));
     }
     return sum;
 }
@@ -113,7 +113,7 @@ double relative_bias(const ToyStep& s, uint mis, Bug bug = Bug::NONE) {
 constexpr double TOLERANCE = 1e-6;
 
 TEST(Mis, CountBalanceAndPairwiseAreUnbiasedWithAnyNeighboursLeftOut) {
-    for (const uint mis : {MIS_COUNT, MIS_BALANCE, MIS_PAIRWISE}) {
+    for (const uint mis : {MIS_ONE_OVER_Z, MIS_BALANCE, MIS_PAIRWISE}) {
         for (const bool first : {false, true}) {
             for (const bool second : {false, true}) {
                 ToyStep step;
@@ -125,13 +125,13 @@ TEST(Mis, CountBalanceAndPairwiseAreUnbiasedWithAnyNeighboursLeftOut) {
 }
 
 TEST(Mis, ConstantDarkensWhereANeighbourCannotMakeTheSample) {
-    EXPECT_LT(relative_bias(ToyStep{}, MIS_CONSTANT), -0.1);
+    EXPECT_LT(relative_bias(ToyStep{}, MIS_ONE_OVER_M), -0.1);
 }
 
 TEST(Mis, ConstantIsUnbiasedWhereAllSupportsAreAlike) {
     ToyStep step;
     step.target = {{{0.5, 1.0, 0.25, 0.0}, {1.0, 2.0, 0.5, 0.0}, {4.0, 1.0, 0.125, 0.0}}};
-    EXPECT_NEAR(relative_bias(step, MIS_CONSTANT), 0.0, TOLERANCE);
+    EXPECT_NEAR(relative_bias(step, MIS_ONE_OVER_M), 0.0, TOLERANCE);
 }
 
 TEST(Mis, WeightsSumToOneAtEverySampleThatThePixelSees) {
@@ -165,13 +165,13 @@ TEST(Mis, WeightsSumToOneOverSixteenOrdersOfMagnitude) {
 TEST(Mis, NegativeControlsAreDetectedForEveryHeuristic) {
     ToyStep step;
     step.joined[2] = false;
-    for (const uint mis : {MIS_COUNT, MIS_BALANCE, MIS_PAIRWISE}) {
+    for (const uint mis : {MIS_ONE_OVER_Z, MIS_BALANCE, MIS_PAIRWISE}) {
         for (const Bug bug : {Bug::SKIP_CONFIDENCE, Bug::TARGET_AT_NEIGHBOUR, Bug::DROP_NORMALIZATION}) {
             EXPECT_GT(std::abs(relative_bias(step, mis, bug)), 1e-2) << "mis " << mis << " bug " << int(bug);
         }
     }
     // Balance looks at its techniques one by one and has no sum of confidences to get wrong.
-    for (const uint mis : {MIS_COUNT, MIS_PAIRWISE}) {
+    for (const uint mis : {MIS_ONE_OVER_Z, MIS_PAIRWISE}) {
         EXPECT_GT(std::abs(relative_bias(step, mis, Bug::COUNT_DEAD)), 1e-2) << "mis " << mis;
     }
 }
@@ -200,9 +200,9 @@ TEST(ReuseRays, EveryRayOfAStepHasAPlaceOfItsOwn) {
         EXPECT_EQ(pairwise.size(), reuse_ray_count(MIS_PAIRWISE, true, false, k));
         EXPECT_EQ(*pairwise.rbegin() + 1, pairwise.size());
     }
-    EXPECT_EQ(reuse_ray_count(MIS_COUNT, true, false, 3), 4u);
+    EXPECT_EQ(reuse_ray_count(MIS_ONE_OVER_Z, true, false, 3), 4u);
     EXPECT_EQ(reuse_ray_count(MIS_BALANCE, false, true, 3), 3u);
-    EXPECT_EQ(reuse_ray_count(MIS_CONSTANT, true, false, 3), 0u);
+    EXPECT_EQ(reuse_ray_count(MIS_ONE_OVER_M, true, false, 3), 0u);
 }
 
 }  // namespace

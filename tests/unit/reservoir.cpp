@@ -7,6 +7,8 @@
 #include <array>
 #include <limits>
 
+#include "shared/math/light_sample.h"
+
 namespace tarn {
 namespace {
 
@@ -31,11 +33,17 @@ constexpr int CANDIDATE_COUNT = 3;
 constexpr int SECOND_STEPS = 60;
 constexpr int THIRD_STEPS = 2520;
 
-LightSample toy_sample(int index) {
-    LightSample sample = no_light_sample();
-    sample.light = uint(index);
-    return sample;
-}
+// A reservoir being filled with samples that are numbers.
+struct Stream {
+    LiveReservoir live = empty_live_reservoir();
+    uint chosen = INVALID_INDEX;
+
+    uint offer(int sample, float target, float weight, float u) {
+        const uint outcome = offer_candidate(live, target, weight, u);
+        if (outcome == OFFER_TAKEN) chosen = uint(sample);
+        return outcome;
+    }
+};
 
 // integrand * W after the given candidates and random numbers.
 double resample(const ToyWorld& world, const std::array<int, CANDIDATE_COUNT>& candidates, const vec3& u,
@@ -45,16 +53,15 @@ double resample(const ToyWorld& world, const std::array<int, CANDIDATE_COUNT>& c
     double mis_weight = 1.0 / CANDIDATE_COUNT;
     if (bug == Bug::FORGET_ONE_OVER_M) mis_weight = 1.0;
     if (bug == Bug::COUNT_LIVE_CANDIDATES_ONLY) mis_weight = live_count > 0 ? 1.0 / live_count : 0.0;
-    LiveReservoir live = empty_live_reservoir();
+    Stream stream;
     for (int i = 0; i < CANDIDATE_COUNT; ++i) {
         const int c = candidates[i];
         const double pdf = bug == Bug::FORGET_ONE_OVER_PDF ? 1.0 : world.pdf[c];
-        offer_candidate(live, toy_sample(c), float(world.target[c]),
-                        float(mis_weight * world.target[c] / pdf), u[i]);
+        stream.offer(c, float(world.target[c]), float(mis_weight * world.target[c] / pdf), u[i]);
     }
-    const Reservoir done = finish_reservoir(live, float(CANDIDATE_COUNT));
-    if (done.chosen.light == INVALID_INDEX) return 0.0;
-    return world.integrand[done.chosen.light] * double(done.contribution_weight);
+    const Reservoir done = finish_reservoir(stream.live, float(CANDIDATE_COUNT));
+    if (done.contribution_weight == 0.0f) return 0.0;
+    return world.integrand[stream.chosen] * double(done.contribution_weight);
 }
 
 // Expectation of integrand * W over all candidate sequences and random numbers, over the true sum, less 1.
@@ -105,9 +112,9 @@ TEST(Reservoir, TheChoiceIsInProportionToTheWeights) {
     constexpr int STEPS = 256;
     for (int i = 0; i < STEPS * STEPS; ++i) {
         const float u[] = {0.5f, (i / STEPS + 0.5f) / STEPS, (i % STEPS + 0.5f) / STEPS};
-        LiveReservoir live = empty_live_reservoir();
-        for (int k = 0; k < 3; ++k) offer_candidate(live, toy_sample(k), 1.0f, weights[k], u[k]);
-        ++chosen[live.chosen.light];
+        Stream stream;
+        for (int k = 0; k < 3; ++k) stream.offer(k, 1.0f, weights[k], u[k]);
+        ++chosen[stream.chosen];
     }
     // Probabilities are multiples of 1/8, so that the grid of u meets them exactly.
     for (int k = 0; k < 3; ++k) EXPECT_EQ(chosen[k], int(weights[k] / 8.0f * STEPS * STEPS)) << k;
@@ -118,90 +125,90 @@ TEST(Reservoir, TheChoiceIsInProportionToTheWeights) {
 
 TEST(Reservoir, AnEmptyOneFinishesToNothing) {
     const Reservoir r = finish_reservoir(empty_live_reservoir(), 32.0f);
-    EXPECT_EQ(r.chosen.light, INVALID_INDEX);
     EXPECT_EQ(r.contribution_weight, 0.0f);
     EXPECT_EQ(r.confidence, 32.0f) << "dead candidates were seen";
 }
 
 TEST(Reservoir, AWeightOfZeroIsPassedOverWithoutComplaint) {
-    LiveReservoir live = empty_live_reservoir();
-    EXPECT_TRUE(offer_candidate(live, toy_sample(1), 0.0f, 0.0f, 0.0f));
-    EXPECT_EQ(live.chosen.light, INVALID_INDEX);
-    EXPECT_TRUE(offer_candidate(live, toy_sample(2), 1.0f, 1.0f, 0.5f));
-    EXPECT_TRUE(offer_candidate(live, toy_sample(3), 0.0f, 0.0f, 0.0f));
-    EXPECT_EQ(live.chosen.light, 2u);
-    EXPECT_EQ(live.weight_sum, 1.0f);
+    Stream stream;
+    EXPECT_NE(OFFER_BAD, stream.offer(1, 0.0f, 0.0f, 0.0f));
+    EXPECT_EQ(stream.chosen, INVALID_INDEX);
+    EXPECT_NE(OFFER_BAD, stream.offer(2, 1.0f, 1.0f, 0.5f));
+    EXPECT_NE(OFFER_BAD, stream.offer(3, 0.0f, 0.0f, 0.0f));
+    EXPECT_EQ(stream.chosen, 2u);
+    EXPECT_EQ(stream.live.weight_sum, 1.0f);
 }
 
 TEST(Reservoir, NanInfiniteAndNegativeWeightsAreReportedAndChangeNothing) {
     const float infinity = std::numeric_limits<float>::infinity();
     for (const float weight : {std::numeric_limits<float>::quiet_NaN(), infinity, -infinity, -1.0f}) {
-        LiveReservoir live = empty_live_reservoir();
-        offer_candidate(live, toy_sample(1), 2.0f, 3.0f, 0.5f);
-        EXPECT_FALSE(offer_candidate(live, toy_sample(9), 1.0f, weight, 0.0f)) << weight;
-        EXPECT_EQ(live.chosen.light, 1u);
-        EXPECT_EQ(live.target, 2.0f);
-        EXPECT_EQ(live.weight_sum, 3.0f);
+        Stream stream;
+        stream.offer(1, 2.0f, 3.0f, 0.5f);
+        EXPECT_EQ(OFFER_BAD, stream.offer(9, 1.0f, weight, 0.0f)) << weight;
+        EXPECT_EQ(stream.chosen, 1u);
+        EXPECT_EQ(stream.live.target, 2.0f);
+        EXPECT_EQ(stream.live.weight_sum, 3.0f);
     }
 }
 
 // Subnormal numbers: W would leave float's range, or a thread would flush them to 0.
 TEST(Reservoir, WeightsAndTargetsBelowTheLeastNormalNumberAreNoLight) {
-    LiveReservoir live = empty_live_reservoir();
-    EXPECT_TRUE(offer_candidate(live, LightSample{1u, vec2(0.0f)}, 1.0f, 1e-39f, 0.0f));
-    EXPECT_TRUE(offer_candidate(live, LightSample{2u, vec2(0.0f)}, 1e-40f, 1.0f, 0.0f));
-    EXPECT_EQ(live.weight_sum, 0.0f);
-    EXPECT_EQ(live.chosen.light, INVALID_INDEX);
-    EXPECT_TRUE(offer_candidate(live, LightSample{3u, vec2(0.0f)}, 1e-30f, 2e-38f, 0.0f));
-    EXPECT_FALSE(has_overflown(live));
-    EXPECT_GT(finish_reservoir(live, 1.0f).contribution_weight, 0.0f);
+    Stream stream;
+    EXPECT_NE(OFFER_BAD, stream.offer(1, 1.0f, 1e-39f, 0.0f));
+    EXPECT_NE(OFFER_BAD, stream.offer(2, 1e-40f, 1.0f, 0.0f));
+    EXPECT_EQ(stream.live.weight_sum, 0.0f);
+    EXPECT_EQ(stream.chosen, INVALID_INDEX);
+    EXPECT_NE(OFFER_BAD, stream.offer(3, 1e-30f, 2e-38f, 0.0f));
+    EXPECT_FALSE(has_overflown(stream.live));
+    EXPECT_GT(finish_reservoir(stream.live, 1.0f).contribution_weight, 0.0f);
 }
 
 TEST(Reservoir, TheFirstLiveCandidateIsTakenForEveryUAndEveryWeight) {
     for (const float u : {0.0f, 0.5f, 1.0f - 0x1p-24f}) {
         for (float weight = 1e-30f; weight < 1e30f; weight *= 7.3f) {
-            LiveReservoir live = empty_live_reservoir();
-            offer_candidate(live, toy_sample(0), 0.0f, 0.0f, u);
-            offer_candidate(live, toy_sample(5), 1.0f, weight, u);
-            EXPECT_EQ(live.chosen.light, 5u) << u << ", " << weight;
+            Stream stream;
+            stream.offer(0, 0.0f, 0.0f, u);
+            stream.offer(5, 1.0f, weight, u);
+            EXPECT_EQ(stream.chosen, 5u) << u << ", " << weight;
         }
     }
 }
 
 TEST(Reservoir, UOfZeroTakesEachLiveCandidateAndUNextToOneKeepsTheFirst) {
-    LiveReservoir live = empty_live_reservoir();
-    for (int k = 0; k < 4; ++k) offer_candidate(live, toy_sample(k), 1.0f, 0.001f, 0.0f);
-    EXPECT_EQ(live.chosen.light, 3u);
-    live = empty_live_reservoir();
-    for (int k = 0; k < 4; ++k) offer_candidate(live, toy_sample(k), 1.0f, 1.0f, 1.0f - 0x1p-24f);
-    EXPECT_EQ(live.chosen.light, 0u);
+    Stream stream;
+    for (int k = 0; k < 4; ++k) stream.offer(k, 1.0f, 0.001f, 0.0f);
+    EXPECT_EQ(stream.chosen, 3u);
+    stream = {};
+    for (int k = 0; k < 4; ++k) stream.offer(k, 1.0f, 1.0f, 1.0f - 0x1p-24f);
+    EXPECT_EQ(stream.chosen, 0u);
 }
 
 TEST(Reservoir, OneCandidateGivesOneOverItsPdf) {
-    LiveReservoir live = empty_live_reservoir();
+    Stream stream;
     const float target = 3.0f;
     const float pdf = 0.125f;
-    offer_candidate(live, toy_sample(1), target, target / pdf, 0.7f);
-    EXPECT_EQ(finish_reservoir(live, 1.0f).contribution_weight, 8.0f);
+    stream.offer(1, target, target / pdf, 0.7f);
+    EXPECT_EQ(finish_reservoir(stream.live, 1.0f).contribution_weight, 8.0f);
 }
 
 TEST(Reservoir, ASumBeyondSinglePrecisionFinishesToNothing) {
-    LiveReservoir live = empty_live_reservoir();
-    offer_candidate(live, toy_sample(1), 1.0f, 3e38f, 0.5f);
-    offer_candidate(live, toy_sample(2), 1.0f, 3e38f, 0.5f);
-    const Reservoir r = finish_reservoir(live, 2.0f);
+    Stream stream;
+    stream.offer(1, 1.0f, 3e38f, 0.5f);
+    stream.offer(2, 1.0f, 3e38f, 0.5f);
+    const Reservoir r = finish_reservoir(stream.live, 2.0f);
     EXPECT_EQ(r.contribution_weight, 0.0f);
-    EXPECT_EQ(r.chosen.light, INVALID_INDEX);
     EXPECT_EQ(r.confidence, 2.0f) << "the candidates were looked at";
 }
 
 TEST(ReservoirRecord, RoundTripKeepsEveryBit) {
-    const Reservoir r{{123456u, vec2(0.25f, -0.5f)}, 7.5f, 32.0f, 0.5f, 0.75f, 3.0f};
+    const LightSample sample{123456u, vec2(0.25f, -0.5f)};
+    const Reservoir r{7.5f, 32.0f, 0.5f, 0.75f, 3.0f};
     uvec4 rows[RESERVOIR_ROWS];
-    pack_reservoir(r, rows[0], rows[1]);
+    pack_reservoir(r, pack_light_sample(sample), rows[0], rows[1]);
     const Reservoir back = unpack_reservoir(rows[0], rows[1]);
-    EXPECT_EQ(back.chosen.light, r.chosen.light);
-    EXPECT_EQ(back.chosen.uv, r.chosen.uv);
+    const LightSample sample_back = unpack_light_sample(uvec3(rows[0]));
+    EXPECT_EQ(sample_back.light, sample.light);
+    EXPECT_EQ(sample_back.uv, sample.uv);
     EXPECT_EQ(back.contribution_weight, r.contribution_weight);
     EXPECT_EQ(back.confidence, r.confidence);
     EXPECT_EQ(back.target, r.target);

@@ -118,7 +118,7 @@ Method parse_method(const std::string& text) {
     for (const std::string& setting : split(text.substr(colon + 1), ',')) {
         given.insert(apply_setting(method.settings, setting, text));
     }
-    if (given.contains(method.dial)) method.dial = method.settings.takes_samples() ? "samples" : "";
+    if (given.contains(method.dial)) method.dial = !method.settings.direct.reuses() ? "samples" : "";
     if (given.contains(method.dial)) method.dial.clear();
     return method;
 }

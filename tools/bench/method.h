@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/settings.h"
+#include "settings/settings.h"
 
 namespace tarn {
 

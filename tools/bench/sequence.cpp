@@ -98,7 +98,7 @@ void warm_up(FrameSource& source, const SequenceRequest& request) {
 // Which samples the frame after the sequence chose, as a picture, and how many of them neighbours share.
 double measure_sharing(FrameSource& source, const SequenceRequest& request) {
     RenderSettings settings = request.settings;
-    settings.debug_view = DebugView::SAMPLES;
+    settings.direct.debug_view = DebugView::SAMPLES;
     const auto number = request.first_frame + std::uint32_t(request.warm_up_frames + request.frames);
     return find_shared_sample_share(
         source.render({request.method, settings, request.seed, number, false, 0, request.resolution})

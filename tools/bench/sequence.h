@@ -12,7 +12,7 @@
 #include "frame/timings.h"
 #include "metrics/image_error.h"
 #include "reference/reference.h"
-#include "renderer/settings.h"
+#include "settings/settings.h"
 
 namespace tarn {
 

@@ -138,9 +138,13 @@ nlohmann::json make_report(const RenderOptions& options, RenderSession& session,
     for (const PassTiming& pass : totals.timings.pass_medians()) {
         passes.push_back({{"name", pass.name}, {"ms_median", pass.ms}});
     }
+    const FramePlan& frame_plan = session.renderer().plan();
     nlohmann::json plan = nlohmann::json::array();
-    for (const PlanEntry& entry : session.renderer().plan().entries) {
+    for (const FeatureReason& entry : frame_plan.feature_reasons) {
         plan.push_back({{"define", entry.define}, {"reason", entry.reason}});
+    }
+    for (const PlannedPass& pass : frame_plan.passes) {
+        if (pass.runs) plan.push_back({{"pass", pass.name}, {"reason", pass.reason}});
     }
     const double p50 = totals.timings.frame_quantile_ms(0.5), p95 = totals.timings.frame_quantile_ms(0.95);
     return {{"frame_ms", {{"median", p50}, {"p95", p95}, {"frames", totals.timings.frame_count()}}},

@@ -16,7 +16,7 @@ std::vector<std::uint32_t> find_silhouettes(Renderer& renderer, const RayTracer&
     const int width = renderer.width_px(), height = renderer.height_px();
     std::vector<char> differs(std::size_t(width) * std::size_t(height), 0);
     for (input.frame = 0; input.frame < FRAMES; ++input.frame) {
-        const auto seen = renderer.render(input).gbuffer.seen.download<glm::uvec2>();
+        const auto seen = renderer.render(input).gbuffer.seen->download<glm::uvec2>();
         tbb::parallel_for(std::size_t(0), seen.size(), [&](std::size_t pixel) {
             const glm::vec2 centre(float(pixel % std::size_t(width)) + 0.5f,
                                    float(pixel / std::size_t(width)) + 0.5f);

@@ -1,27 +1,13 @@
 // Direct light: one candidate a pixel from a ray along its BRDF, for what light sampling seldom finds.
 #pragma once
 
-#include "passes/direct/direct_frame.h"
+#include "passes/gbuffer.h"
+#include "passes/reuse/samples.h"
 
 namespace tarn {
 
-class BrdfCandidatesPass {
-  public:
-    BrdfCandidatesPass(ProgramLibrary& programs, int width_px, int height_px);
-
-    // One row a pixel: the light sample that the ray met; see RayTracer::trace_lights.
-    const RowBuffer& record(const DirectFrame& direct, const World& world);
-
-    // Rays of the last batch.
-    const RayBatchResult& result() const { return result_; }
-
-  private:
-    ProgramLibrary& programs_;
-    int width_px_;
-    int height_px_;
-    RowBuffer rays_;
-    RowBuffer samples_;
-    RayBatchResult result_;
-};
+// One row a pixel: the light sample that the ray met; see RayTracer::trace_lights.
+Rows trace_brdf_candidates(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,
+                           const World& world);
 
 }  // namespace tarn

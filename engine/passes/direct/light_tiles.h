@@ -1,19 +1,10 @@
 // Tiles of light samples drawn in advance; see shaders/lib/light_tiles.glsl.
 #pragma once
 
-#include "passes/direct/direct_frame.h"
+#include "passes/frame_context.h"
 
 namespace tarn {
 
-class LightTilesPass {
-  public:
-    explicit LightTilesPass(ProgramLibrary& programs);
-
-    const RowBuffer& record(const DirectFrame& direct);
-
-  private:
-    ProgramLibrary& programs_;
-    RowBuffer tiles_;
-};
+Rows draw_light_tiles(const FrameContext& frame);
 
 }  // namespace tarn

@@ -1,50 +1,42 @@
 #include "passes/direct/shade.h"
 
 #include "shared/interface/bindings.h"
+#include "shared/interface/constants/shade.h"
 
 namespace tarn {
+namespace {
 
-DirectShadePass::DirectShadePass(ProgramLibrary& programs, int width_px, int height_px)
-    : programs_(programs),
-      width_px_(width_px),
-      height_px_(height_px),
-      radiance_("direct/radiance", width_px, height_px, GL_RGBA32F) {}
-
-const Program& DirectShadePass::prepare(const DirectFrame& direct, std::vector<std::string> defines,
-                                        bool first) {
-    defines.insert(defines.begin(), direct.defines.begin(), direct.defines.end());
-    if (!first) defines.emplace_back("TARN_ADD");
-    if (direct.settings.per_channel) defines.emplace_back("TARN_ONE_CHANNEL");
-    if (direct.settings.debug_view == DebugView::VISIBILITY) defines.emplace_back("TARN_SHOW_VISIBILITY");
-    if (direct.settings.debug_view == DebugView::UNSHADOWED) defines.emplace_back("TARN_SHOW_UNSHADOWED");
-    if (direct.settings.debug_view == DebugView::SAMPLES) defines.emplace_back("TARN_SHOW_SAMPLES");
-    const Program& program = programs_.compute("direct/shade", defines);
-    program.set("target_weights", direct.target_weights);
-    program.set("share", 1.0f / float(direct.settings.sample_count()));
-    return program;
+ShadeSource source_of(const ShadeInput& input) {
+    if (input.summed) return ShadeSource::SUMMED;
+    return input.answers ? ShadeSource::TRACED : ShadeSource::RESERVOIR;
 }
 
-void DirectShadePass::record(const DirectFrame& direct, const RowBuffer& reservoirs, const RowBuffer* answers,
-                             bool first) {
-    std::vector<std::string> defines;
-    if (answers == nullptr) defines.emplace_back("TARN_RESERVOIR_VISIBILITY");
-    const Program& program = prepare(direct, std::move(defines), first);
-    PassRecorder pass = direct.frame.pass("direct/shade");
-    read_gbuffer(pass, direct.gbuffer).read(UNIT_PASS_A, reservoirs);
-    if (answers != nullptr) pass.read(UNIT_PASS_B, *answers);
-    pass.write_image(0, radiance_)
-        .count(BLOCK_COUNTERS, direct.counters)
-        .dispatch(program, width_px_, height_px_);
-}
+}  // namespace
 
-void DirectShadePass::record(const DirectFrame& direct, const Texture2D& light, bool first) {
-    const Program& program = prepare(direct, {"TARN_SHADED"}, first);
-    PassRecorder pass = direct.frame.pass("direct/shade");
-    read_gbuffer(pass, direct.gbuffer)
-        .read(UNIT_PASS_A, light)
-        .write_image(0, radiance_)
-        .count(BLOCK_COUNTERS, direct.counters)
-        .dispatch(program, width_px_, height_px_);
+Picture shade_direct(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,
+                     const ShadeInput& input, Picture earlier) {
+    const DirectPlan& plan = frame.plan.direct;
+    const ShadeVariant variant{source_of(input), plan.view, plan.targets.size() > 1, earlier != nullptr};
+    const Picture radiance =
+        earlier ? earlier : frame.recorder.take_picture("direct/radiance", frame.size_px, GL_RGBA32F);
+    ShadeConstants constants;
+    constants.target_weights = glm::vec4(slot.target_weights, 0.0f);
+    constants.share = 1.0f / float(plan.sample_count);
+    PassRecorder pass = frame.pass("direct/shade");
+    read_gbuffer(pass, gbuffer).constants(constants);
+    if (input.summed) {
+        pass.read(UNIT_PASS_A, input.summed);
+    } else {
+        pass.read(UNIT_PASS_A, input.samples->reservoirs);
+    }
+    if (input.answers) pass.read(UNIT_PASS_B, input.answers);
+    if (earlier) {
+        pass.read_write_image(0, *radiance);
+    } else {
+        pass.write_image(0, *radiance);
+    }
+    pass.count(BLOCK_COUNTERS, frame.counters).dispatch(frame.compute(variant), frame.size_px);
+    return radiance;
 }
 
 }  // namespace tarn

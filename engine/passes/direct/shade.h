@@ -1,31 +1,23 @@
 // Direct light, last step: the chosen samples light their pixels.
 #pragma once
 
-#include "passes/direct/direct_frame.h"
+#include "passes/gbuffer.h"
+#include "passes/reuse/samples.h"
+#include "passes/trace_visibility.h"
 
 namespace tarn {
 
-class DirectShadePass {
-  public:
-    DirectShadePass(ProgramLibrary& programs, int width_px, int height_px);
-
-    // Adds the light of `reservoirs` to the picture; the first call of a frame starts it with emission.
-    // `answers`: one a pixel, where its sample was traced after all reuse, else null: what the reservoir
-    // knows is used.
-    void record(const DirectFrame& direct, const RowBuffer& reservoirs, const RowBuffer* answers, bool first);
-    // The same with light that reuse has summed (ReuseStep::Io::light).
-    void record(const DirectFrame& direct, const Texture2D& light, bool first);
-
-    // RGBA32F, W sr^-1 m^-2.
-    const Texture2D& radiance() const { return radiance_; }
-
-  private:
-    const Program& prepare(const DirectFrame& direct, std::vector<std::string> defines, bool first);
-
-    ProgramLibrary& programs_;
-    int width_px_;
-    int height_px_;
-    Texture2D radiance_;
+// What is shaded: one of the first two with its visibility, or the sum that the last step of reuse made.
+struct ShadeInput {
+    const Samples* samples = nullptr;
+    Answers answers;  // one a pixel, where the samples were traced after all reuse; null: what the reservoirs
+                      // know
+    Picture summed;
 };
+
+// RGBA32F, W sr^-1 m^-2: emission and the light of this slot's samples, added to `earlier` slots' of this
+// frame, which is no more; null for the first slot.
+Picture shade_direct(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,
+                     const ShadeInput& input, Picture earlier);
 
 }  // namespace tarn

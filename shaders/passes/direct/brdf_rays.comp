@@ -1,5 +1,6 @@
 // Draws a direction from each pixel's BRDF and writes the ray along it: where it meets a light, that is a candidate
 // which light sampling alone would seldom find (mirrors, glossy floors).
+#include "shared/interface/constants/candidates.h"
 #include "lib/scene_buffers.glsl"
 #include "lib/frame.glsl"
 #include "lib/gbuffer.glsl"
@@ -8,8 +9,6 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(std430, binding = 0) writeonly buffer Rays { uvec4 out_rays[]; };
-
-uniform uint sample_index;  // of the frame's samples of each pixel
 
 RayRecord brdf_ray(ivec2 pixel, Receiver r) {
     RayRecord ray = inactive_ray();

@@ -7,11 +7,14 @@
 //   TARN_SELECT_POWER    by power, a quarter of the candidates from the sky where there is one
 //   TARN_SELECT_TILES    as by power, out of a tile of samples drawn in advance (direct/light_tiles)
 //   TARN_SELECT_TREE     by a walk down the light tree, the sky as above
+#include "shared/interface/constants/candidates.h"
 #include "lib/scene_buffers.glsl"
 #include "lib/frame.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/counters.glsl"
 #include "lib/receiver.glsl"
+#include "lib/direct/light_samples.glsl"
+#include "shared/math/reservoir.h"
 #ifdef TARN_SELECT_TILES
 #include "lib/light_tiles.glsl"
 #endif
@@ -28,12 +31,9 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 0) writeonly buffer Reservoirs { uvec4 out_reservoirs[]; };
 layout(std430, binding = 1) writeonly buffer Rays { uvec4 out_rays[]; };
 
-uniform uint candidate_count;
-uniform uint sample_index;  // of the frame's samples of each pixel
-
-void store(uint pixel, Reservoir reservoir, RayRecord ray) {
+void store(uint pixel, LightSample chosen, Reservoir reservoir, RayRecord ray) {
     uvec4 row0, row1;
-    pack_reservoir(reservoir, row0, row1);
+    pack_reservoir(reservoir, pack_light_sample(chosen), row0, row1);
     out_reservoirs[pixel * RESERVOIR_ROWS] = row0;
     out_reservoirs[pixel * RESERVOIR_ROWS + 1u] = row1;
     pack_ray(ray, row0, row1);
@@ -54,6 +54,7 @@ struct Stream {
     Receiver receiver;
     ivec2 pixel;
     RandomKey key;
+    LightSample chosen;
     LiveReservoir live;
 };
 
@@ -93,7 +94,9 @@ void offer_incident(inout Stream s, LightCandidate c, IncidentLight incident, ui
     float density = c.pdf * float(candidate_count) + brdf_pdf(s, c.drawn, incident);
     float weight = target == 0.0f ? 0.0f : target / density;
     float u = random4(s.key, sample_dimension(DIMENSION_CHOICE + i)).x;
-    if (!offer_candidate(s.live, c.drawn, target, weight, u)) count_event(COUNTER_BAD_WEIGHT);
+    uint offer = offer_candidate(s.live, target, weight, u);
+    if (offer == OFFER_TAKEN) s.chosen = c.drawn;
+    if (offer == OFFER_BAD) count_event(COUNTER_BAD_WEIGHT);
 }
 
 void offer(inout Stream s, LightCandidate c, uint i) {
@@ -204,10 +207,11 @@ void main() {
     s.pixel = ivec2(gl_GlobalInvocationID.xy);
     if (is_outside(s.pixel)) return;
     if (!load_receiver(s.pixel, s.receiver)) {
-        store(pixel_index(s.pixel), empty_reservoir(), inactive_ray());
+        store(pixel_index(s.pixel), no_light_sample(), empty_reservoir(), inactive_ray());
         return;
     }
     s.key = pixel_key(s.pixel);
+    s.chosen = no_light_sample();
     s.live = empty_live_reservoir();
     offer_all(s);
     float confidence = float(candidate_count);
@@ -218,6 +222,10 @@ void main() {
     Reservoir reservoir = finish_reservoir(s.live, confidence);
     if (has_overflown(s.live)) count_event(COUNTER_BAD_RESERVOIR);
     RayRecord ray = inactive_ray();
-    if (reservoir.contribution_weight > 0.0f) ray = sample_ray(s.receiver, reservoir.chosen, s.pixel);
-    store(pixel_index(s.pixel), reservoir, ray);
+    if (reservoir.contribution_weight > 0.0f) {
+        ray = sample_ray(s.receiver, s.chosen, s.pixel);
+    } else {
+        s.chosen = no_light_sample();
+    }
+    store(pixel_index(s.pixel), s.chosen, reservoir, ray);
 }

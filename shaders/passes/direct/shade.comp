@@ -5,11 +5,14 @@
 // TARN_SHOW_VISIBILITY: the visibility term itself instead of light; TARN_SHOW_UNSHADOWED: light without it. Figures 1c,
 // 1d and 1e of Tokuyoshi's supplement. TARN_SHOW_SAMPLES: a colour for each light sample; pixels of one colour share it.
 // TARN_ONE_CHANNEL: the sample stands for the channel of `target_weights` alone. TARN_ADD: to what is there already.
+#include "shared/interface/constants/shade.h"
 #include "lib/scene_buffers.glsl"
 #include "lib/frame.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/counters.glsl"
 #include "lib/receiver.glsl"
+#include "lib/direct/light_samples.glsl"
+#include "lib/reuse/reservoirs.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -21,15 +24,13 @@ layout(binding = UNIT_PASS_A) uniform usamplerBuffer reservoirs;
 layout(binding = UNIT_PASS_B) uniform samplerBuffer visibility;
 layout(binding = 0, rgba32f) uniform image2D radiance_image;
 
-uniform float share;  // of this sample in the picture
-
 #ifndef TARN_SHADED
-float load_visibility(ivec2 pixel, Reservoir reservoir) {
+float load_visibility(ivec2 pixel, Reservoir state) {
 #ifdef TARN_SHOW_UNSHADOWED
     return 1.0f;
 #endif
 #ifdef TARN_RESERVOIR_VISIBILITY
-    return reservoir.visibility;
+    return state.visibility;
 #else
     return texelFetch(visibility, int(pixel_index(pixel))).x;
 #endif
@@ -42,16 +43,14 @@ vec3 sample_colour(LightSample chosen) {
 }
 
 vec3 chosen_light(ivec2 pixel, Receiver receiver) {
-    int row = int(pixel_index(pixel) * RESERVOIR_ROWS);
-    Reservoir reservoir = unpack_reservoir(texelFetch(reservoirs, row), texelFetch(reservoirs, row + 1));
-    float visible = load_visibility(pixel, reservoir);
-    vec3 reflected = reflect_at(receiver, load_incident_light(reservoir.chosen, receiver.point.position));
-    reflected *= reservoir.contribution_weight * visible;
+    SampleReservoir r = load_reservoir(reservoirs, pixel);
+    float visible = load_visibility(pixel, r.state);
+    vec3 reflected = reflect_sample(receiver, r.chosen) * (r.state.contribution_weight * visible);
 #ifdef TARN_SHOW_VISIBILITY
-    reflected = vec3(reservoir.contribution_weight > 0.0f ? visible : 0.0f);
+    reflected = vec3(holds_sample(r) ? visible : 0.0f);
 #endif
 #ifdef TARN_SHOW_SAMPLES
-    reflected = reservoir.contribution_weight > 0.0f ? sample_colour(reservoir.chosen) : vec3(0.0f);
+    reflected = holds_sample(r) ? sample_colour(r.chosen) : vec3(0.0f);
 #endif
     return reflected;
 }
@@ -64,7 +63,7 @@ vec3 direct_light(ivec2 pixel, Receiver receiver) {
     vec3 light = chosen_light(pixel, receiver);
 #endif
 #ifdef TARN_ONE_CHANNEL
-    light *= target_weights;
+    light *= target_weights.xyz;
 #endif
     return light * share;
 }

@@ -32,5 +32,9 @@
 #define LAYER_MOTION 5
 #define LAYER_COUNT 6
 
-#define BLOCK_COUNTERS 7
+// Uniform blocks.
 #define BLOCK_FRAME 0
+#define BLOCK_PASS 1
+
+// Storage blocks: 0 upwards are the pass's own.
+#define BLOCK_COUNTERS 7

@@ -6,7 +6,7 @@
 // into the pixel's domain and 0 where the technique could not have made that sample. Neighbours that were
 // rejected are no techniques and take no part.
 //
-// Sources: Bitterli et al. 2020, section 4.3 and algorithm 6 (constant, count); Talbot 2005 with confidence
+// Sources: Bitterli et al. 2020, section 4.3 and algorithm 6 (1/M, 1/Z); Talbot 2005 with confidence
 // weights, Lin et al. 2022 and equation 3 of Tokuyoshi's supplement (balance); Bitterli 2022 and Lin et al.
 // 2022 (pairwise, in its defensive form).
 #pragma once
@@ -15,19 +15,22 @@
 
 SHARED_BEGIN
 
-CONSTANT uint MIS_CONSTANT = 0u;  // 1/M: every technique counts, whether it could have made the sample or not
-CONSTANT uint MIS_COUNT = 1u;     // 1/Z: only those count that could have made it
-CONSTANT uint MIS_BALANCE = 2u;   // by confidence * target
-CONSTANT uint MIS_PAIRWISE =
-    3u;  // each neighbour against the pixel alone, a share of which is always its own
+// Every technique counts, whether it could have made the sample or not: biased.
+CONSTANT uint MIS_ONE_OVER_M = 0u;
+// Only those count that could have made it.
+CONSTANT uint MIS_ONE_OVER_Z = 1u;
+// Generalized balance heuristic: by confidence * target.
+CONSTANT uint MIS_BALANCE = 2u;
+// Each neighbour against the pixel alone, a share of which is always its own (defensive).
+CONSTANT uint MIS_PAIRWISE = 3u;
 
 // a / b for 0 <= a <= b; 0 where b is 0.
 FN float bounded_ratio(float a, float b) {
     return b > 0.0f ? min(a / b, 1.0f) : 0.0f;
 }
 
-// What one technique adds to Z, by which the count heuristic divides.
-FN float count_term(float confidence, float target) {
+// What one technique adds to Z.
+FN float z_term(float confidence, float target) {
     return target > 0.0f ? confidence : 0.0f;
 }
 
@@ -71,23 +74,24 @@ FN float pairwise_defensive_share(PairwiseStep step) {
 // Shadow rays a pixel needs, with `neighbours` of them: those of the MIS denominators, or, without these, one
 // a neighbour where the visibility of its sample is to be known (`sample_visibility`).
 FN uint reuse_ray_count(uint mis, bool mis_visibility, bool sample_visibility, uint neighbours) {
-    if (!mis_visibility || mis == MIS_CONSTANT) return sample_visibility ? neighbours : 0u;
-    if (mis == MIS_COUNT) return neighbours + 1u;  // every technique to the chosen sample
+    if (!mis_visibility || mis == MIS_ONE_OVER_M) return sample_visibility ? neighbours : 0u;
+    if (mis == MIS_ONE_OVER_Z) return neighbours + 1u;  // every technique to the chosen sample
     if (mis == MIS_PAIRWISE) return 2u * neighbours;
     return neighbours * (neighbours + 1u);  // every technique to every sample but its own
 }
 
 // Place of the ray from the pixel to the sample of neighbour `n` (1 for the first).
 FN uint canonical_ray_slot(uint mis, bool mis_visibility, uint neighbours, uint n) {
-    if (!mis_visibility || mis == MIS_CONSTANT) return n - 1u;
+    if (!mis_visibility || mis == MIS_ONE_OVER_M) return n - 1u;
     if (mis == MIS_PAIRWISE) return 2u * (n - 1u);
     return n * neighbours;
 }
 
-// Place of the ray from technique `looker` to the sample of `owner`; 0 is the pixel, looker != owner.
-FN uint technique_ray_slot(uint mis, uint neighbours, uint owner, uint looker) {
-    if (mis == MIS_PAIRWISE) return looker == 0u ? 2u * (owner - 1u) : 2u * (looker - 1u) + 1u;
-    return owner * neighbours + (looker < owner ? looker : looker - 1u);
+// Place of the ray from technique `technique` to the sample of technique `sampled`; 0 is the pixel, and the
+// two differ.
+FN uint technique_ray_slot(uint mis, uint neighbours, uint sampled, uint technique) {
+    if (mis == MIS_PAIRWISE) return technique == 0u ? 2u * (sampled - 1u) : 2u * (technique - 1u) + 1u;
+    return sampled * neighbours + (technique < sampled ? technique : technique - 1u);
 }
 
 SHARED_END

@@ -4,7 +4,8 @@
 // Source: Bitterli et al., "Spatiotemporal Reservoir Resampling for Real-Time Ray Tracing with Dynamic Direct
 // Lighting", 2020, algorithms 2 and 3; names as in Lin et al., "Generalized Resampled Importance Sampling",
 // 2022. A LiveReservoir is being filled; a Reservoir is finished and carries the contribution weight W, an
-// unbiased estimate of 1 / pdf of its sample.
+// unbiased estimate of 1 / pdf of its sample. What a sample is, reservoirs do not know: whoever fills one
+// keeps the sample beside it (light_sample.h for direct light) and replaces it where an offer is OFFER_TAKEN.
 #pragma once
 
 #include "shared/dialect.h"
@@ -12,37 +13,21 @@
 
 SHARED_BEGIN
 
-// A place on a light, independent of who looks at it.
-struct LightSample {
-    uint light;  // index, LIGHT_ENVIRONMENT or INVALID_INDEX
-    vec2 uv;     // triangle: barycentrics; environment: octahedral direction; punctual: unused
-};
-
 struct LiveReservoir {
-    LightSample chosen;
     float target;      // target function (p-hat) at the chosen sample
     float weight_sum;  // sum of all resampling weights so far
 };
 
 struct Reservoir {
-    LightSample chosen;
-    float contribution_weight;  // W; 0: the reservoir holds nothing
+    float contribution_weight;  // W; 0: the reservoir holds no sample
     float confidence;           // M, in candidates
     float target;               // p-hat of its pixel at the chosen sample, when W was found
     float visibility;  // of the chosen sample from its pixel, or an estimate of it (V-bar); 1 until traced
     float age;         // frames since the chosen sample was drawn
 };
 
-FN LightSample no_light_sample() {
-    LightSample none;
-    none.light = INVALID_INDEX;
-    none.uv = vec2(0.0f);
-    return none;
-}
-
 FN LiveReservoir empty_live_reservoir() {
     LiveReservoir r;
-    r.chosen = no_light_sample();
     r.target = 0.0f;
     r.weight_sum = 0.0f;
     return r;
@@ -50,7 +35,6 @@ FN LiveReservoir empty_live_reservoir() {
 
 FN Reservoir empty_reservoir() {
     Reservoir r;
-    r.chosen = no_light_sample();
     r.contribution_weight = 0.0f;
     r.confidence = 0.0f;
     r.target = 0.0f;
@@ -63,19 +47,21 @@ FN Reservoir empty_reservoir() {
 // thread flushes them to 0, everything.
 CONSTANT float LEAST_WEIGHT = 1.17549435e-38f;
 
+// What became of a candidate.
+CONSTANT uint OFFER_PASSED = 0u;  // the sample stays what it was
+CONSTANT uint OFFER_TAKEN = 1u;   // the candidate is the sample now
+CONSTANT uint OFFER_BAD = 2u;     // its weight was negative or not finite: to be counted by the caller
+
 // Offers a candidate with resampling weight w = m * target / pdf. `u` in [0, 1). A weight that is 0 or
-// subnormal, negative or not finite is passed over; returns false for the last two, so that the caller can
-// count them.
-FN bool offer_candidate(INOUT(LiveReservoir) r, LightSample candidate, float target, float weight, float u) {
-    if (!is_finite(weight) || weight < 0.0f) return false;
-    if (weight < LEAST_WEIGHT || target < LEAST_WEIGHT) return true;
+// subnormal, negative or not finite is passed over. Returns one of OFFER_*.
+FN uint offer_candidate(INOUT(LiveReservoir) r, float target, float weight, float u) {
+    if (!is_finite(weight) || weight < 0.0f) return OFFER_BAD;
+    if (weight < LEAST_WEIGHT || target < LEAST_WEIGHT) return OFFER_PASSED;
     r.weight_sum += weight;
     // By product, not by quotient: no 0/0, and the first candidate is always taken.
-    if (u * r.weight_sum < weight) {
-        r.chosen = candidate;
-        r.target = target;
-    }
-    return true;
+    if (!(u * r.weight_sum < weight)) return OFFER_PASSED;
+    r.target = target;
+    return OFFER_TAKEN;
 }
 
 // Whether W of what was offered leaves float's range.
@@ -90,29 +76,27 @@ FN Reservoir finish_reservoir(LiveReservoir live, float confidence) {
     r.confidence = confidence;
     float weight = ratio_or_zero(live.weight_sum, live.target);
     if (!is_finite(weight) || weight < LEAST_WEIGHT) return r;
-    r.chosen = live.chosen;
     r.contribution_weight = weight;
     r.target = live.target;
     return r;
 }
 
+// Two rows: the head, whose first three words are the sample's, and the state. Samples that need more than
+// three words have rows of their own behind these (shaders/lib/reuse/reservoirs.glsl).
 CONSTANT uint RESERVOIR_ROWS = 2u;
 
-FN void pack_reservoir(Reservoir r, OUT(uvec4) row0, OUT(uvec4) row1) {
-    row0 = uvec4(r.chosen.light, floatBitsToUint(r.chosen.uv.x), floatBitsToUint(r.chosen.uv.y),
-                 floatBitsToUint(r.contribution_weight));
-    row1 = pack_row4(vec4(r.confidence, r.target, r.visibility, r.age));
+FN void pack_reservoir(Reservoir r, uvec3 sample_words, OUT(uvec4) head, OUT(uvec4) state) {
+    head = uvec4(sample_words.x, sample_words.y, sample_words.z, floatBitsToUint(r.contribution_weight));
+    state = pack_row4(vec4(r.confidence, r.target, r.visibility, r.age));
 }
 
-FN Reservoir unpack_reservoir(uvec4 row0, uvec4 row1) {
+FN Reservoir unpack_reservoir(uvec4 head, uvec4 state) {
     Reservoir r;
-    r.chosen.light = row0.x;
-    r.chosen.uv = vec2(uintBitsToFloat(row0.y), uintBitsToFloat(row0.z));
-    r.contribution_weight = uintBitsToFloat(row0.w);
-    r.confidence = uintBitsToFloat(row1.x);
-    r.target = uintBitsToFloat(row1.y);
-    r.visibility = uintBitsToFloat(row1.z);
-    r.age = uintBitsToFloat(row1.w);
+    r.contribution_weight = uintBitsToFloat(head.w);
+    r.confidence = uintBitsToFloat(state.x);
+    r.target = uintBitsToFloat(state.y);
+    r.visibility = uintBitsToFloat(state.z);
+    r.age = uintBitsToFloat(state.w);
     return r;
 }
 

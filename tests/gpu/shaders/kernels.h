@@ -51,15 +51,15 @@ FN uvec4 run_reservoir(uvec4 a, uvec4 b) {
     vec3 weights = row_xyz(a);
     vec3 u = row_xyz(b);
     LiveReservoir live = empty_live_reservoir();
+    uint chosen = INVALID_INDEX;
     uint sound = 0u;
     for (int i = 0; i < 3; ++i) {
-        LightSample candidate = no_light_sample();
-        candidate.light = uint(i);
-        if (offer_candidate(live, candidate, float(i + 1), weights[i], u[i])) sound |= 1u << uint(i);
+        uint offer = offer_candidate(live, float(i + 1), weights[i], u[i]);
+        if (offer == OFFER_TAKEN) chosen = uint(i);
+        if (offer != OFFER_BAD) sound |= 1u << uint(i);
     }
     Reservoir done = finish_reservoir(live, 3.0f);
-    return uvec4(done.chosen.light, sound, floatBitsToUint(live.weight_sum),
-                 floatBitsToUint(done.contribution_weight));
+    return uvec4(chosen, sound, floatBitsToUint(live.weight_sum), floatBitsToUint(done.contribution_weight));
 }
 
 FN uvec4 run_light_record(uvec4 a, uvec4 b, uvec4 c, uvec4 d) {

@@ -21,9 +21,9 @@ struct Trick {
     const char* value;
 };
 
-constexpr Trick TRICKS[] = {{"permute", "on"},         {"mirror", "on"},           {"boiling-filter", "10"},
-                            {"boiling-filter", "4"},   {"discard-occluded", "on"}, {"age-cap", "30"},
-                            {"visibility", "averaged"}};
+constexpr Trick TRICKS[] = {
+    {"permute", "on"},          {"mirror", "on"},  {"boiling-filter", "10"},        {"boiling-filter", "4"},
+    {"visibility-reuse", "on"}, {"age-cap", "30"}, {"final-visibility", "averaged"}};
 
 // All seeds of one variant: the mean of some frames for the energy, single frames for the noise.
 struct Variant {
@@ -58,16 +58,17 @@ Estimate ratio_of(const std::vector<Image>& with, const std::vector<Image>& with
 }
 
 RenderSettings switch_off(RenderSettings settings) {
-    settings.permute = settings.mirror = settings.discard_occluded = false;
-    settings.boiling_filter = 0.0;
-    settings.age_cap = 0;
-    settings.visibility = SampleVisibility::TRACE;
+    settings.direct.reuse.permute = settings.direct.reuse.mirror = settings.direct.reuse.visibility_reuse =
+        false;
+    settings.direct.reuse.boiling_filter = 0.0;
+    settings.direct.reuse.age_cap = 0;
+    settings.direct.reuse.final_visibility = FinalVisibility::TRACED;
     return settings;
 }
 
 void run(const OptionStudy& study) {
     check_output_folder(study.options.json_file);
-    if (!study.options.settings.reuses_time() || !study.options.settings.reuses_space()) {
+    if (!study.options.settings.direct.reuses_time() || !study.options.settings.direct.reuses_space()) {
         throw Error("study options: needs --direct restir with --reuse spatiotemporal, or a preset of it");
     }
     RenderSession session(study.options);

@@ -29,21 +29,21 @@ struct VisibilityStudy {
 // A way to know the visibility of the chosen sample.
 struct Mode {
     const char* label;
-    SampleVisibility visibility;
-    bool discard_occluded;  // before anyone reuses them: what darkens
+    FinalVisibility visibility;
+    bool visibility_reuse;  // before anyone reuses them: what darkens
     bool per_channel;
     SampleShading shade = SampleShading::CHOSEN;
 };
 
 constexpr Mode MODES[] = {
-    {"reuse", SampleVisibility::REUSE, true, false},
-    {"averaged", SampleVisibility::AVERAGED, true, false},
-    {"reuse, per channel", SampleVisibility::REUSE, true, true},
-    {"averaged, per channel", SampleVisibility::AVERAGED, true, true},
-    {"reuse, all kept", SampleVisibility::REUSE, false, false},
-    {"averaged, all kept", SampleVisibility::AVERAGED, false, false},
-    {"averaged, all kept, per channel", SampleVisibility::AVERAGED, false, true},
-    {"all shaded, all kept", SampleVisibility::AVERAGED, false, false, SampleShading::ALL},
+    {"reuse", FinalVisibility::REUSED, true, false},
+    {"averaged", FinalVisibility::AVERAGED, true, false},
+    {"reuse, per channel", FinalVisibility::REUSED, true, true},
+    {"averaged, per channel", FinalVisibility::AVERAGED, true, true},
+    {"reuse, all kept", FinalVisibility::REUSED, false, false},
+    {"averaged, all kept", FinalVisibility::AVERAGED, false, false},
+    {"averaged, all kept, per channel", FinalVisibility::AVERAGED, false, true},
+    {"all shaded, all kept", FinalVisibility::AVERAGED, false, false, SampleShading::ALL},
 };
 constexpr std::size_t REUSE = 0, AVERAGED = 1, REUSE_PER_CHANNEL = 2, AVERAGED_PER_CHANNEL = 3;
 
@@ -56,10 +56,10 @@ struct ModeImages {
 
 RenderSettings settings_of(const VisibilityStudy& study, const Mode& mode) {
     RenderSettings settings = study.options.settings;
-    settings.visibility = mode.visibility;
-    settings.discard_occluded = mode.discard_occluded;
-    settings.per_channel = mode.per_channel;
-    settings.shade = mode.shade;
+    settings.direct.reuse.final_visibility = mode.visibility;
+    settings.direct.reuse.visibility_reuse = mode.visibility_reuse;
+    settings.direct.per_channel = mode.per_channel;
+    settings.direct.reuse.shade = mode.shade;
     return settings;
 }
 
@@ -68,12 +68,12 @@ void measure_seed(Renderer& renderer, const StudySequence& sequence, ModeImages&
     FrameMean light;
     StudySequence looked_at = sequence;
     looked_at.frames += LIGHT_FRAMES;
-    looked_at.settings.debug_view = DebugView::VISIBILITY;
+    looked_at.settings.direct.debug_view = DebugView::VISIBILITY;
     render_sequence(renderer, looked_at, [&](int frame, const Image& radiance, RenderSettings& next) {
         if (frame == TERM_FRAME) images.terms.push_back(radiance);
         if (frame == UNSHADOWED_FRAME) images.unshadowed.push_back(radiance);
         if (frame >= LIGHT_FRAMES) light.add(radiance);
-        next.debug_view = frame == TERM_FRAME ? DebugView::UNSHADOWED : DebugView::NONE;
+        next.direct.debug_view = frame == TERM_FRAME ? DebugView::UNSHADOWED : DebugView::NONE;
     });
     images.means.push_back(light.mean());
 }
@@ -229,7 +229,7 @@ Json report_converged(const Truth& truth, const std::vector<ModeImages>& modes) 
 
 void run(const VisibilityStudy& study) {
     check_output_folder(study.options.json_file);
-    if (!study.options.settings.reuses()) {
+    if (!study.options.settings.direct.reuses()) {
         throw Error("study visibility: needs --direct restir with --reuse, or a preset of it");
     }
     create_folder(study.out);
@@ -268,8 +268,8 @@ void add_visibility_study(CLI::App& app) {
     study->options.scene.height = 72;
     // As the paper has it: what neighbours gave is what the next frame finds.
     study->options.settings = find_preset("fast").settings;
-    study->options.settings.feedback = true;
-    study->options.settings.radius_px = 30.0;
+    study->options.settings.direct.reuse.feedback = true;
+    study->options.settings.direct.reuse.radius_px = 30.0;
     add_render_options(*sub, study->options);
     sub->get_option("SCENE")->required(false);
     sub->add_option("--seeds", study->seeds, "Independent seeds")

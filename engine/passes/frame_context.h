@@ -1,0 +1,65 @@
+// What every pass knows of the frame at hand.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+
+#include "frame/frame_recorder.h"
+#include "gl/program_library.h"
+#include "plan/frame_plan.h"
+#include "rays/ray_tracer.h"
+
+namespace tarn {
+
+// Rays of a frame, rejected ones of both kinds together.
+struct RayCounts {
+    RayBatchResult shadow;
+    std::uint64_t closest = 0;
+};
+
+struct FrameContext {
+    FrameRecorder& recorder;
+    ProgramLibrary& programs;
+    const RayTracer& tracer;
+    const Buffer& counters;
+    RayCounts& rays;
+    const FramePlan& plan;
+    const RenderSettings& settings;
+    const Defines& scene_defines;  // of all shaders that know the scene: its features, and what tests plant
+    glm::ivec2 size_px;
+    std::uint32_t frame = 0;
+    std::uint32_t seed = 0;
+    std::optional<PreviousRays>
+        previous;            // how the last frame's rays were answered; none: no history is valid
+    bool has_moved = false;  // camera, lights or geometry, since the last frame
+
+    PassRecorder pass(const std::string& name) const { return recorder.pass(name); }
+
+    // The compiled shader of a variant (plan/shader_variants.h).
+    template <class Variant>
+    const Program& compute(const Variant& variant) const {
+        return programs.compute(Variant::PATH, defines_of(variant));
+    }
+    template <class Variant>
+    const Program& graphics(const Variant& variant) const {
+        return programs.graphics(Variant::PATH, defines_of(variant));
+    }
+
+    std::size_t pixel_count() const { return std::size_t(size_px.x) * std::size_t(size_px.y); }
+
+    // Memory for `rows` rows of four words a pixel. Error where a storage block of the driver cannot hold
+    // them.
+    Rows take_pixel_rows(const std::string& name, std::size_t rows, BufferUse use) const;
+
+  private:
+    template <class Variant>
+    Defines defines_of(const Variant& variant) const {
+        Defines defines = variant.defines();
+        if (Variant::IS_OF_SCENE) defines.insert(defines.begin(), scene_defines.begin(), scene_defines.end());
+        return defines;
+    }
+};
+
+}  // namespace tarn

@@ -1,0 +1,19 @@
+#include "passes/trace_visibility.h"
+
+namespace tarn {
+
+Answers trace_visibility(const FrameContext& frame, const std::string& name, const Rows& rays,
+                         std::size_t ray_count, const CoverageKey& key) {
+    Answers answers =
+        frame.recorder.take_rows("visibility/answers", ray_count * sizeof(float), BufferUse::SHARED, GL_R32F);
+    frame.pass(name).read_on_cpu(rays->buffer()).write_on_cpu(answers->buffer()).run_on_cpu([&] {
+        const RayBatchResult result = frame.tracer.trace_visibility(
+            rays->buffer().mapped<glm::uvec4>().first(ray_count * RAY_ROWS),
+            answers->buffer().mapped<float>().first(ray_count), key, frame.previous.value_or(PreviousRays{}));
+        frame.rays.shadow.traced += result.traced;
+        frame.rays.shadow.rejected += result.rejected;
+    });
+    return answers;
+}
+
+}  // namespace tarn

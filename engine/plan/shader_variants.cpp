@@ -1,0 +1,165 @@
+#include "plan/shader_variants.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace tarn {
+namespace {
+
+constexpr Mis ALL_MIS[] = {Mis::ONE_OVER_M, Mis::ONE_OVER_Z, Mis::BALANCE, Mis::PAIRWISE};
+
+const char* define_of(LightSelection selection) {
+    switch (selection) {
+        case LightSelection::UNIFORM:
+            return "TARN_SELECT_UNIFORM";
+        case LightSelection::POWER:
+            return "TARN_SELECT_POWER";
+        case LightSelection::TILES:
+            return "TARN_SELECT_TILES";
+        case LightSelection::TREE:
+            return "TARN_SELECT_TREE";
+    }
+    return "";
+}
+
+const char* define_of(DebugView view) {
+    switch (view) {
+        case DebugView::NONE:
+            break;
+        case DebugView::VISIBILITY:
+            return "TARN_SHOW_VISIBILITY";
+        case DebugView::UNSHADOWED:
+            return "TARN_SHOW_UNSHADOWED";
+        case DebugView::SAMPLES:
+            return "TARN_SHOW_SAMPLES";
+    }
+    return nullptr;
+}
+
+template <class Variant>
+ShaderFamily family_of() {
+    ShaderFamily family{Variant::PATH, Variant::IS_OF_SCENE, {}};
+    for (const Variant& variant : Variant::all()) family.variants.push_back(variant.defines());
+    return family;
+}
+
+}  // namespace
+
+Defines RasterVariant::defines() const {
+    return coverage ? Defines{"TARN_COVERAGE"} : Defines{};
+}
+
+std::vector<RasterVariant> RasterVariant::all() {
+    return {{false}, {true}};
+}
+
+Defines CandidatesVariant::defines() const {
+    Defines result = {define_of(selection)};
+    if (brdf_candidate) result.emplace_back("TARN_BRDF_CANDIDATE");
+    return result;
+}
+
+std::vector<CandidatesVariant> CandidatesVariant::all() {
+    std::vector<CandidatesVariant> result;
+    for (const LightSelection selection :
+         {LightSelection::UNIFORM, LightSelection::POWER, LightSelection::TILES, LightSelection::TREE}) {
+        for (const bool brdf : {false, true}) result.push_back({selection, brdf});
+    }
+    return result;
+}
+
+Defines ReuseVariant::defines() const {
+    Defines result = {fmt::format("TARN_MIS={}", int(mis)),
+                      fmt::format("TARN_MIS_VISIBILITY={}", mis_visibility ? 1 : 0),
+                      fmt::format("TARN_FINAL_VISIBILITY={}", int(final_visibility))};
+    if (run == ReuseRun::WRITE_RAYS) result.emplace_back("TARN_WRITE_RAYS");
+    if (run == ReuseRun::MERGE_AND_TEST) result.emplace_back("TARN_LAST_STEP");
+    if (run == ReuseRun::MERGE_AND_SHADE) result.emplace_back("TARN_SHADE_ALL");
+    return result;
+}
+
+std::vector<ReuseVariant> ReuseVariant::all(bool shades) {
+    std::vector<ReuseVariant> result;
+    for (const Mis mis : ALL_MIS) {
+        for (const bool mis_visibility : {false, true}) {
+            for (const FinalVisibility visibility :
+                 {FinalVisibility::TRACED, FinalVisibility::REUSED, FinalVisibility::AVERAGED}) {
+                for (const ReuseRun run : {ReuseRun::WRITE_RAYS, ReuseRun::MERGE, ReuseRun::MERGE_AND_TEST})
+                    result.push_back({mis, mis_visibility, visibility, run});
+                if (shades) result.push_back({mis, mis_visibility, visibility, ReuseRun::MERGE_AND_SHADE});
+            }
+        }
+    }
+    return result;
+}
+
+std::vector<TemporalVariant> TemporalVariant::all() {
+    std::vector<TemporalVariant> result;
+    for (const ReuseVariant& reuse : ReuseVariant::all(false)) result.push_back({reuse});
+    return result;
+}
+
+Defines SpatialVariant::defines() const {
+    Defines result = reuse.defines();
+    result.push_back(fmt::format("TARN_NEIGHBOURS={}", neighbours));
+    return result;
+}
+
+// The loops over neighbours are alike for every number of them: the least, the most and the presets' one
+// stand for the rest.
+std::vector<SpatialVariant> SpatialVariant::all() {
+    std::vector<SpatialVariant> result;
+    for (const ReuseVariant& reuse : ReuseVariant::all(true)) result.push_back({reuse, 3});
+    for (const int neighbours : {1, 9}) result.push_back({ReuseVariant{}, neighbours});
+    return result;
+}
+
+Defines ShadeVariant::defines() const {
+    Defines result;
+    if (source == ShadeSource::RESERVOIR) result.emplace_back("TARN_RESERVOIR_VISIBILITY");
+    if (source == ShadeSource::SUMMED) result.emplace_back("TARN_SHADED");
+    if (const char* define = define_of(view)) result.emplace_back(define);
+    if (one_channel) result.emplace_back("TARN_ONE_CHANNEL");
+    if (adds) result.emplace_back("TARN_ADD");
+    return result;
+}
+
+std::vector<ShadeVariant> ShadeVariant::all() {
+    std::vector<ShadeVariant> result;
+    for (const ShadeSource source : {ShadeSource::TRACED, ShadeSource::RESERVOIR, ShadeSource::SUMMED}) {
+        for (const DebugView view :
+             {DebugView::NONE, DebugView::VISIBILITY, DebugView::UNSHADOWED, DebugView::SAMPLES}) {
+            if (source == ShadeSource::SUMMED && view != DebugView::NONE) continue;
+            for (const bool one_channel : {false, true}) {
+                for (const bool adds : {false, true}) result.push_back({source, view, one_channel, adds});
+            }
+        }
+    }
+    return result;
+}
+
+Defines DisplayVariant::defines() const {
+    constexpr std::array<const char*, DISPLAY_VIEW_COUNT> DEFINES = {
+        "TARN_VIEW_RADIANCE",       "TARN_VIEW_LUMINANCE",         "TARN_VIEW_ALBEDO",
+        "TARN_VIEW_EMISSION",       "TARN_VIEW_GEOMETRIC_NORMALS", "TARN_VIEW_SHADING_NORMALS",
+        "TARN_VIEW_POSITION_ERROR", "TARN_VIEW_PRIMITIVES"};
+    return {DEFINES[std::size_t(view)]};
+}
+
+std::vector<DisplayVariant> DisplayVariant::all() {
+    std::vector<DisplayVariant> result;
+    for (int view = 0; view < DISPLAY_VIEW_COUNT; ++view) result.push_back({DisplayView(view)});
+    return result;
+}
+
+std::vector<ShaderFamily> shader_families() {
+    return {family_of<RasterVariant>(),     family_of<ResolveVariant>(),
+            family_of<LightTilesVariant>(), family_of<BrdfRaysVariant>(),
+            family_of<CandidatesVariant>(), family_of<InitialVisibilityVariant>(),
+            family_of<TemporalVariant>(),   family_of<BoilingFilterVariant>(),
+            family_of<SpatialVariant>(),    family_of<ShadeVariant>(),
+            family_of<DisplayVariant>()};
+}
+
+}  // namespace tarn

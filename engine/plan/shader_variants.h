@@ -1,0 +1,144 @@
+// The variants of every entry shader. A pass asks for its program by one of these types, and nothing else: so
+// what a frame can run is what `shader_families` lists and the tests compile.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "plan/scene_features.h"
+#include "settings/settings.h"
+
+namespace tarn {
+
+// For each type: PATH under shaders/passes, whether the scene's features and the planted bugs of tests
+// concern it, the defines of this variant, and all variants there are.
+
+struct RasterVariant {
+    static constexpr const char* PATH = "gbuffer/raster";
+    static constexpr bool IS_OF_SCENE = true;
+    bool coverage = false;  // alpha MASK and BLEND
+    Defines defines() const;
+    static std::vector<RasterVariant> all();
+};
+
+// A shader that the scene's features alone decide.
+template <class Variant>
+struct PlainVariant {
+    static constexpr bool IS_OF_SCENE = true;
+    Defines defines() const { return {}; }
+    static std::vector<Variant> all() { return {Variant{}}; }
+};
+
+struct ResolveVariant : PlainVariant<ResolveVariant> {
+    static constexpr const char* PATH = "gbuffer/resolve";
+};
+struct LightTilesVariant : PlainVariant<LightTilesVariant> {
+    static constexpr const char* PATH = "direct/light_tiles";
+};
+struct BrdfRaysVariant : PlainVariant<BrdfRaysVariant> {
+    static constexpr const char* PATH = "direct/brdf_rays";
+};
+struct InitialVisibilityVariant : PlainVariant<InitialVisibilityVariant> {
+    static constexpr bool IS_OF_SCENE = false;
+    static constexpr const char* PATH = "direct/initial_visibility";
+};
+struct BoilingFilterVariant : PlainVariant<BoilingFilterVariant> {
+    static constexpr bool IS_OF_SCENE = false;
+    static constexpr const char* PATH = "direct/boiling_filter";
+};
+
+struct CandidatesVariant {
+    static constexpr const char* PATH = "direct/candidates";
+    static constexpr bool IS_OF_SCENE = true;
+    LightSelection selection = LightSelection::POWER;
+    bool brdf_candidate = false;
+    Defines defines() const;
+    static std::vector<CandidatesVariant> all();
+};
+
+// What a run of a step of reuse does: write the rays that its weights ask for, or merge.
+enum class ReuseRun {
+    WRITE_RAYS,
+    MERGE,
+    MERGE_AND_TEST,   // the last step: it also writes the rays that test its samples
+    MERGE_AND_SHADE,  // the last spatial step, all of whose samples light the pixel
+};
+
+// What both kinds of steps have in common.
+struct ReuseVariant {
+    Mis mis = Mis::PAIRWISE;
+    bool mis_visibility = false;
+    FinalVisibility final_visibility = FinalVisibility::TRACED;
+    ReuseRun run = ReuseRun::MERGE;
+    Defines defines() const;
+    static std::vector<ReuseVariant> all(bool shades);
+};
+
+struct TemporalVariant {
+    static constexpr const char* PATH = "direct/temporal";
+    static constexpr bool IS_OF_SCENE = true;
+    ReuseVariant reuse;
+    Defines defines() const { return reuse.defines(); }
+    static std::vector<TemporalVariant> all();
+};
+
+struct SpatialVariant {
+    static constexpr const char* PATH = "direct/spatial";
+    static constexpr bool IS_OF_SCENE = true;
+    ReuseVariant reuse;
+    int neighbours = 3;
+    Defines defines() const;
+    static std::vector<SpatialVariant> all();
+};
+
+// Where shading finds the light of a pixel.
+enum class ShadeSource {
+    TRACED,     // its chosen sample, whose visibility was traced after all reuse
+    RESERVOIR,  // its chosen sample, with the visibility that the reservoir knows
+    SUMMED,     // the sum that the last step of reuse made
+};
+
+struct ShadeVariant {
+    static constexpr const char* PATH = "direct/shade";
+    static constexpr bool IS_OF_SCENE = true;
+    ShadeSource source = ShadeSource::TRACED;
+    DebugView view = DebugView::NONE;
+    bool one_channel = false;  // the sample stands for one channel alone
+    bool adds = false;         // to what earlier samples of this frame gave
+    Defines defines() const;
+    static std::vector<ShadeVariant> all();
+};
+
+// What a window may show of a frame.
+enum class DisplayView {
+    RADIANCE,
+    LUMINANCE,
+    ALBEDO,
+    EMISSION,
+    GEOMETRIC_NORMALS,
+    SHADING_NORMALS,
+    POSITION_ERROR,
+    PRIMITIVES,
+};
+constexpr int DISPLAY_VIEW_COUNT = 8;
+
+struct DisplayVariant {
+    static constexpr const char* PATH = "display";
+    static constexpr bool IS_OF_SCENE = false;
+    DisplayView view = DisplayView::RADIANCE;
+    Defines defines() const;
+    static std::vector<DisplayVariant> all();
+};
+
+// One entry shader: all defines that its passes may ask for besides the scene's.
+struct ShaderFamily {
+    std::string path;
+    bool is_of_scene;
+    std::vector<Defines> variants;
+};
+
+// All entry shaders.
+std::vector<ShaderFamily> shader_families();
+
+}  // namespace tarn

@@ -1,0 +1,88 @@
+// THE FRAME: from the scene's tables to radiance, stage by stage. Each stage takes values and returns values;
+// what the next frame finds is what `history_` keeps.
+#include "passes/direct/brdf_candidates.h"
+#include "passes/direct/candidates.h"
+#include "passes/direct/light_tiles.h"
+#include "passes/direct/reuse.h"
+#include "passes/direct/shade.h"
+#include "passes/trace_visibility.h"
+#include "renderer/renderer.h"
+#include "shared/math/random.h"
+
+namespace tarn {
+namespace {
+
+// Each sample of a pixel meets partly covered surfaces with numbers of its own.
+constexpr std::uint32_t SEED_STRIDE = 0x9e3779b9u;
+
+std::vector<SampleSlot> list_slots(const FrameContext& frame) {
+    std::vector<SampleSlot> slots;
+    for (std::uint32_t index = 0; index < std::uint32_t(frame.plan.direct.sample_count); ++index) {
+        const CoverageKey key{frame.frame, frame.seed ^ (index * SEED_STRIDE), RAY_SHADOW};
+        for (std::size_t lane = 0; lane < frame.plan.direct.targets.size(); ++lane) {
+            slots.push_back({index, lane, frame.plan.direct.targets[lane], key});
+        }
+    }
+    return slots;
+}
+
+}  // namespace
+
+Renderer::Values Renderer::record_frame(const FrameContext& frame, const CameraRecord& camera) {
+    const DirectPlan& plan = frame.plan.direct;
+    const ReusePlan& reuse = plan.reuse;
+    const std::size_t pixels = frame.pixel_count();
+    history_.direct.resize(plan.targets.size());
+
+    CandidateSources sources;
+    if (plan.light_tree) sources.tree = gpu_light_tree_.rows();
+    const GBuffer gbuffer = gbuffer_.record(frame, world_, camera, find_previous_surfaces(frame, history_));
+    if (plan.light_tiles) sources.tiles = draw_light_tiles(frame);
+
+    Picture radiance;
+    for (const SampleSlot& slot : list_slots(frame)) {
+        if (plan.brdf_rays && slot.lane == 0) {
+            sources.brdf_samples = trace_brdf_candidates(frame, gbuffer, slot, world_);
+        }
+        Samples fresh = choose_candidates(frame, gbuffer, slot, sources);
+        if (reuse.tests_fresh_samples) {
+            const Answers seen =
+                trace_visibility(frame, "direct/initial_rays", fresh.rays, pixels, slot.shadow_key);
+            fresh = apply_direct_visibility(frame, std::move(fresh), seen);
+        }
+
+        History<KeptSamples>& kept = history_.direct[slot.lane];
+        Samples over_time = fresh;
+        if (const auto previous = find_previous(frame, reuse, kept, slot.target_weights)) {
+            const bool tests = reuse.tests_chosen_samples && reuse.spatial_steps == 0;
+            over_time = reuse_direct_over_time(frame, {gbuffer, slot, fresh, tests}, *previous);
+        }
+        if (reuse.filters_boiling) over_time = filter_direct_boiling(frame, std::move(over_time));
+
+        Samples over_space = over_time;
+        Picture light;
+        for (int i = 0; i < reuse.spatial_steps; ++i) {
+            const bool is_last = i + 1 == reuse.spatial_steps;
+            if (is_last && reuse.shades_all_samples) {
+                light = frame.recorder.take_picture("direct/light", frame.size_px, GL_RGBA32F);
+            }
+            const ReuseInput input{gbuffer, slot, over_space, is_last && reuse.tests_chosen_samples,
+                                   light ? &light : nullptr};
+            over_space = reuse_direct_over_space(frame, input, i);
+        }
+        if (reuse.runs()) {
+            const Samples& chosen = reuse.keeps_temporal ? over_time : over_space;
+            kept.keep(frame.frame, {chosen.reservoirs, meaning_of(reuse, slot.target_weights)});
+        }
+
+        Answers seen;
+        if (reuse.tests_chosen_samples) {
+            seen = trace_visibility(frame, "visibility", over_space.rays, pixels, slot.shadow_key);
+        }
+        radiance = shade_direct(frame, gbuffer, slot, {&over_space, seen, light}, radiance);
+    }
+    history_.surfaces.keep(frame.frame, gbuffer.surfaces);
+    return {gbuffer, radiance};
+}
+
+}  // namespace tarn

@@ -1,0 +1,30 @@
+// What the next frame may look back to. Besides these the scene's tables keep the rows of the last frame
+// (GpuScene).
+#pragma once
+
+#include <vector>
+
+#include "frame/history.h"
+#include "passes/gbuffer.h"
+#include "passes/reuse/samples.h"
+#include "rays/ray_tracer.h"
+
+namespace tarn {
+
+struct FrameHistory {
+    std::optional<PreviousRays> rays;  // which the last frame was; none: there is nothing to look back at
+    CameraRecord camera{};
+    History<Surfaces> surfaces;
+    std::vector<History<KeptSamples>> direct;  // one a target
+
+    void forget() { *this = {}; }
+};
+
+// What the last frame saw, where this one follows it.
+inline std::optional<Previous<Surfaces>> find_previous_surfaces(const FrameContext& frame,
+                                                                const FrameHistory& history) {
+    if (!frame.previous) return std::nullopt;
+    return history.surfaces.of_frame(frame.previous->key.frame);
+}
+
+}  // namespace tarn

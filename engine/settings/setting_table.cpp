@@ -1,0 +1,151 @@
+// The rows: what each setting is called, does and accepts.
+#include "settings/setting_rows.h"
+#include "settings/settings.h"
+
+namespace tarn {
+namespace {
+
+struct DirectPart {
+    DirectSettings& operator()(RenderSettings& s) const { return s.direct; }
+    const DirectSettings& operator()(const RenderSettings& s) const { return s.direct; }
+};
+
+struct DirectReusePart {
+    ReuseSettings& operator()(RenderSettings& s) const { return s.direct.reuse; }
+    const ReuseSettings& operator()(const RenderSettings& s) const { return s.direct.reuse; }
+};
+
+void add_direct_rows(std::vector<Setting>& table) {
+    using S = DirectSettings;
+    SettingRows<DirectPart> rows(table, "");
+    rows.choose(
+        "direct",
+        "How direct light chooses its sample: one random light, one by power, one by the light tree, RIS "
+        "over many candidates, or RIS with samples reused over time and neighbours",
+        &S::mode, {"uniform", "power", "light-tree", "ris", "restir"});
+    rows.where(&S::resamples)
+        .choose("light-selection",
+                "How a candidate of ris and restir finds its light; tiles: by power, drawn in advance",
+                &S::light_selection, {"uniform", "power", "tiles", "tree"})
+        .number("candidates", "", "Light candidates a pixel that ris and restir choose from", &S::candidates,
+                1, 1024)
+        .toggle("brdf-candidate",
+                "One candidate more from a ray along the BRDF, joined by MIS: for mirrors and glossy floors",
+                &S::brdf_candidate);
+    rows.where([](const RenderSettings& s) { return !s.direct.reuses(); })
+        .number("samples", "", "Samples a pixel and frame, each with a ray; reuse keeps one", &S::samples, 1,
+                256);
+    rows.where(SettingRows<DirectPart>::Applies())
+        .toggle("per-channel",
+                "A sample for each of red, green and blue: no colour noise or leak, three times the cost",
+                &S::per_channel);
+}
+
+// Rows of the steps over time; they show where these run.
+template <class Part>
+void add_temporal_rows(SettingRows<Part>& rows) {
+    using S = ReuseSettings;
+    rows.number("confidence-cap", "x",
+                "restir: confidence of the last frame's sample at most, as a multiple of the fresh sample's",
+                &S::confidence_cap, 1, 1000)
+        .number(
+            "motion-cap", "x",
+            "restir: the same in frames in which camera, lights or geometry moved: a long history is worth "
+            "less there",
+            &S::motion_cap, 1, 1000)
+        .number("age-cap", "frames", "restir: drop samples older than this; 0: never", &S::age_cap, 0, 1000)
+        .number(
+            "boiling-filter", "x",
+            "restir: drop samples that outweigh the mean of their 8 x 8 pixels this many times; darkens; 0: "
+            "none",
+            &S::boiling_filter, 0, 1000)
+        .toggle("permute", "restir: neighbours swap their histories, so that fewer share a sample",
+                &S::permute);
+}
+
+template <class Part>
+void add_spatial_rows(SettingRows<Part>& rows) {
+    using S = ReuseSettings;
+    rows.number("spatial-iterations", "", "restir: steps of reuse over neighbours", &S::spatial_iterations, 1,
+                4)
+        .number("neighbours", "", "restir: neighbours a step", &S::neighbours, 1, 9)
+        .number("radius", "px", "restir: distance of neighbours at most", &S::radius_px, 1, 100)
+        .toggle("mirror",
+                "restir: neighbours outside of the picture are mirrored into it instead of left out",
+                &S::mirror);
+}
+
+template <class Part>
+void add_weight_rows(SettingRows<Part>& rows) {
+    using S = ReuseSettings;
+    rows.choose("mis",
+                "restir: weights of reused samples: 1/M, 1/Z, generalized balance heuristic, pairwise with a "
+                "defensive share",
+                &S::mis, {"1/M", "1/Z", "balance", "pairwise"})
+        .toggle(
+            "mis-visibility",
+            "restir: trace visibility in the weights, which makes 1/Z, balance and pairwise unbiased, also "
+            "while things move",
+            &S::mis_visibility)
+        .toggle(
+            "visibility-reuse",
+            "restir: drop fresh samples that are occluded before anyone reuses them (Bitterli et al. 2020)",
+            &S::visibility_reuse)
+        .choose("final-visibility",
+                "restir: how the visibility of the sample that lights the pixel is known: traced at the end, "
+                "reused "
+                "with it, or averaged over all samples of each step (Tokuyoshi)",
+                &S::final_visibility, {"traced", "reused", "averaged"});
+}
+
+// The rows of reuse. `runs` says of a step whether it runs at all: it belongs to the stage that reuses.
+template <class Part>
+void add_reuse_rows(std::vector<Setting>& table, const std::string& prefix,
+                    bool (DirectSettings::*stage_resamples)() const) {
+    using S = ReuseSettings;
+    SettingRows<Part> rows(table, prefix);
+    const auto where = [stage_resamples](auto holds) {
+        return [=](const RenderSettings& s) { return (s.direct.*stage_resamples)() && holds(Part()(s)); };
+    };
+    rows.where(where([](const S&) { return true; }))
+        .choose("reuse", "restir: whose samples are reused", &S::reuse,
+                {"none", "temporal", "spatial", "spatiotemporal"});
+    rows.where(where([](const S& s) { return s.reuses_space(); }));
+    add_spatial_rows(rows);
+    rows.where(where([](const S& s) { return s.reuses_time() && s.reuses_space(); }))
+        .toggle("feedback",
+                "restir: the next frame starts from the samples after reuse over neighbours, instead of from "
+                "those "
+                "after reuse over time: more candidates behind a sample, but neighbours come to share it",
+                &S::feedback);
+    rows.where(where([](const S& s) { return s.reuse != Reuse::NONE; }));
+    add_weight_rows(rows);
+    rows.where(where([](const S& s) { return s.can_shade_all(); }))
+        .choose("shade",
+                "restir: what lights a pixel: its chosen sample, or all of the last step by their weights",
+                &S::shade, {"chosen", "all"});
+    rows.where(where([](const S& s) { return s.reuses_time(); }));
+    add_temporal_rows(rows);
+}
+
+void add_view_rows(std::vector<Setting>& table) {
+    SettingRows<DirectPart>(table, "").choose(
+        "debug-view",
+        "Show the visibility of the chosen samples, their light without it, or which they are, in colours",
+        &DirectSettings::debug_view, {"none", "visibility", "unshadowed", "samples"});
+}
+
+}  // namespace
+
+const std::vector<Setting>& setting_table() {
+    static const std::vector<Setting> table = [] {
+        std::vector<Setting> rows;
+        add_direct_rows(rows);
+        add_reuse_rows<DirectReusePart>(rows, "", &DirectSettings::uses_restir);
+        add_view_rows(rows);
+        return rows;
+    }();
+    return table;
+}
+
+}  // namespace tarn
