@@ -2,12 +2,12 @@
 
 #include <utility>
 
+#include "shared/math/colour.h"
 #include "shared/math/reservoir.h"
 
 namespace tarn {
 namespace {
 
-constexpr glm::vec3 LUMINANCE_WEIGHTS(0.2126f, 0.7152f, 0.0722f);
 // Each sample of a pixel meets partly covered surfaces with numbers of its own.
 constexpr std::uint32_t SEED_STRIDE = 0x9e3779b9u;
 
@@ -17,7 +17,7 @@ RowBuffer make_reservoirs(const std::string& name, int width_px, int height_px) 
 
 // One target for the picture, or one a channel.
 std::vector<glm::vec3> targets_of(const DirectSettings& settings) {
-    if (!settings.per_channel) return {LUMINANCE_WEIGHTS};
+    if (!settings.per_channel) return {glm::vec3(LUMINANCE_WEIGHTS)};
     return {glm::vec3(1.0f, 0.0f, 0.0f), glm::vec3(0.0f, 1.0f, 0.0f), glm::vec3(0.0f, 0.0f, 1.0f)};
 }
 

@@ -1,10 +1,11 @@
 // A lit point of the picture, and what light samples are worth there: the target function of all resampling.
 //
 // After lib/scene_buffers.glsl, lib/frame.glsl and lib/gbuffer.glsl.
+#include "shared/math/colour.h"
 #include "shared/math/shadow_ray.h"
 
 // (Rec. 709 luminance, or a single channel) . reflected radiance is the target (p-hat).
-uniform vec3 target_weights = vec3(0.2126f, 0.7152f, 0.0722f);
+uniform vec3 target_weights = vec3(LUMINANCE_WEIGHTS);
 
 struct Receiver {
     ShadingPoint point;

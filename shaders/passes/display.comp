@@ -1,5 +1,6 @@
 // One view of a finished frame as display-encoded colours; which one, the define says (engine/passes/display.cpp).
 #include "lib/gbuffer.glsl"
+#include "shared/math/colour.h"
 #include "shared/math/display.h"
 #include "shared/math/random.h"
 
