@@ -7,7 +7,7 @@
 
 #include "core/display.h"
 #include "core/error.h"
-#include "core/interrupt.h"
+#include "interrupt.h"
 #include "image_io/image_io.h"
 
 namespace tarn {
