@@ -19,11 +19,6 @@ float decode_srgb(float encoded) {
     return linear_from_srgb(encoded);
 }
 
-void tone_map_neutral(float rgb[3]) {
-    const vec3 mapped = map_tone_neutral(vec3(rgb[0], rgb[1], rgb[2]));
-    for (int c = 0; c < 3; ++c) rgb[c] = mapped[c];
-}
-
 Image display_from_radiance(const Image& radiance, float exposure_ev) {
     TARN_ASSERT(radiance.channels == 3, "{} channels, 3 are needed", radiance.channels);
     const float scale = std::exp2(exposure_ev);

@@ -1,7 +1,5 @@
 #include "plan/frame_plan.h"
 
-#include <algorithm>
-
 #include "core/error.h"
 #include "shared/math/light.h"
 
