@@ -17,18 +17,13 @@
 #include "gl/vertex_array.h"
 #include "gpu/shader_folder.h"
 #include "platform/context.h"
+#include "support/on_context.h"
 
 namespace tarn {
 namespace {
 
-class GlObjects : public testing::Test {
+class GlObjects : public test::OnDebugContext<> {
   protected:
-    static void SetUpTestSuite() {
-        ContextOptions options;
-        options.debug = true;
-        context_ = create_context(options);
-    }
-    static void TearDownTestSuite() { context_.reset(); }
     void TearDown() override { EXPECT_EQ(take_debug_errors(), std::vector<std::string>()); }
 
     // Runs `body` in `main` of one compute shader, `groups` groups of 64 invocations named i, after `head`.
@@ -55,7 +50,6 @@ class GlObjects : public testing::Test {
         return text;
     }
 
-    static inline std::unique_ptr<Context> context_;
     ShaderFolder folder_;
 };
 

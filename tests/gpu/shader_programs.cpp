@@ -10,6 +10,7 @@
 #include "gpu/shader_folder.h"
 #include "platform/context.h"
 #include "platform/environment.h"
+#include "support/on_context.h"
 
 namespace tarn {
 namespace {
@@ -111,14 +112,8 @@ TEST(ShaderSource, TheRootComesFromTheEnvironment) {
     EXPECT_EQ(ProgramLibrary().compute("a").name(), "a");
 }
 
-class Programs : public testing::Test {
+class Programs : public test::OnDebugContext<> {
   protected:
-    static void SetUpTestSuite() {
-        ContextOptions options;
-        options.debug = true;
-        context_ = create_context(options);
-    }
-    static void TearDownTestSuite() { context_.reset(); }
     void SetUp() override { take_debug_errors(); }
 
     // A program that stores `expression`, after `head`.
@@ -138,7 +133,6 @@ class Programs : public testing::Test {
         return result.download<std::uint32_t>()[0];
     }
 
-    static inline std::unique_ptr<Context> context_;
     ShaderFolder folder_;
 };
 

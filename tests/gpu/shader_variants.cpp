@@ -6,7 +6,7 @@
 
 #include "gl/program_library.h"
 #include "passes/display.h"
-#include "platform/context.h"
+#include "support/on_context.h"
 
 namespace tarn {
 namespace {
@@ -96,14 +96,8 @@ std::vector<Defines> list_own_variants(const std::string& pass) {
     return {{}};
 }
 
-class ShaderVariants : public testing::TestWithParam<std::string> {
+class ShaderVariants : public test::OnDebugContext<testing::TestWithParam<std::string>> {
   protected:
-    static void SetUpTestSuite() {
-        ContextOptions options;
-        options.debug = true;
-        context_ = create_context(options);
-    }
-    static void TearDownTestSuite() { context_.reset(); }
     void SetUp() override { take_debug_errors(); }
 
     void compile(const Defines& defines) {
@@ -116,7 +110,6 @@ class ShaderVariants : public testing::TestWithParam<std::string> {
     }
 
     ProgramLibrary programs_;
-    static inline std::unique_ptr<Context> context_;
 };
 
 TEST_P(ShaderVariants, AllCompile) {

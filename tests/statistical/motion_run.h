@@ -1,20 +1,19 @@
-// Methods side by side over one moving scene: their mean in its last frame
-// against the reference at that moment.
+// Methods side by side over one moving scene: their mean in its last frame against the reference at that
+// moment.
 #pragma once
 
 #include <gtest/gtest.h>
 
-#include <cstdio>
 #include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "platform/context.h"
 #include "reference/reference.h"
 #include "renderer/renderer.h"
 #include "shared/math/random.h"
 #include "support/moving_scenes.h"
+#include "support/on_context.h"
 #include "support/tile_test.h"
 
 namespace tarn::test {
@@ -27,227 +26,181 @@ constexpr double SIGNIFICANCE = 0.01;
 constexpr double DETECTABLE_IN_PICTURE = 0.01;
 constexpr double DETECTABLE_IN_TILE = 0.03;
 
-// What a method does in each frame; `planted` are mistakes for its shaders
-// (TARN_PLANT_*).
+// What a method does in each frame; `planted` are mistakes for its shaders (TARN_PLANT_*).
 struct MotionMethod {
-  std::string name;
-  std::function<RenderSettings(int frame)> settings;
-  std::vector<std::string> planted = {};
-  bool draws_all_frames =
-      false; // also those that leave nothing for the last one
+    std::string name;
+    std::function<RenderSettings(int frame)> settings;
+    std::vector<std::string> planted = {};
+    bool draws_all_frames = false;  // also those that leave nothing for the last one
 };
 
 struct MotionResult {
-  TileTest picture; // as one tile
-  TileTest tiles;
-  double energy = 0.0; // mean over the reference's
+    TileTest picture;  // as one tile
+    TileTest tiles;
+    double energy = 0.0;  // mean over the reference's
 };
 
-class MotionTest : public testing::Test {
-protected:
-  static void SetUpTestSuite() { context_ = create_context({}); }
-  static void TearDownTestSuite() { context_.reset(); }
+class MotionTest : public OnContext<> {
+  protected:
+    // Independent runs of each method: more of them find smaller biases.
+    static constexpr int SEEDS = 32;
+    static constexpr int SEEDS_OF_BOUNDS = 8;
 
-  // Independent runs of each method: more of them find smaller biases.
-  static constexpr int SEEDS = 32;
-  static constexpr int SEEDS_OF_BOUNDS = 8;
-
-  static std::vector<MotionResult> run(MovingScene moving,
-                                       const std::vector<MotionMethod> &methods,
-                                       int seeds = SEEDS) {
-    moving.pose(moving.scene, LAST_FRAME);
-    World world = build_world(moving.scene, moving.options);
-    const auto tracer = create_embree_tracer(world);
-    const double aspect = double(WIDTH_PX) / HEIGHT_PX;
-    const CameraRecord camera =
-        look_at(world, moving.camera_ws, moving.target_ws, 45.0, aspect);
-    TileReference truth = render_truth(world, *tracer, camera);
-    const std::set<std::uint32_t> left_out =
-        find_silhouettes(world, *tracer, camera);
-    for (Image *image : {&truth.mean, &truth.variance})
-      clear(*image, left_out);
-    std::vector<Runner> runners;
-    for (const MotionMethod &method : methods)
-      runners.emplace_back(world, *tracer, method);
-    for (int seed = 0; seed < seeds; ++seed) {
-      for (int frame = 0; frame <= LAST_FRAME; ++frame) {
-        moving.pose(moving.scene, frame);
-        update_world(world, moving.scene, 0.0);
-        tracer->update(world);
-        for (Runner &runner : runners)
-          runner.render(camera, std::uint32_t(seed) + 100u, frame, left_out);
-      }
-    }
-    std::vector<MotionResult> results;
-    for (Runner &runner : runners)
-      results.push_back(runner.finish(truth));
-    return results;
-  }
-
-  // The reference's mean, in the picture and in every tile, by a test that
-  // could tell otherwise.
-  static void expect_no_bias(const MovingScene &moving,
-                             const std::vector<MotionMethod> &methods,
-                             int seeds = SEEDS) {
-    const std::vector<MotionResult> results = run(moving, methods, seeds);
-    for (std::size_t i = 0; i < methods.size(); ++i) {
-      EXPECT_TRUE(results[i].picture.passes) << methods[i].name;
-      EXPECT_TRUE(results[i].tiles.passes) << methods[i].name;
-      EXPECT_LE(results[i].picture.detectable_bias, DETECTABLE_IN_PICTURE)
-          << methods[i].name;
-      EXPECT_LE(results[i].tiles.detectable_bias, DETECTABLE_IN_TILE)
-          << methods[i].name;
-    }
-  }
-
-  // The same test fails on the method with a mistake planted in it.
-  static void expect_found(const MovingScene &moving, MotionMethod method,
-                           const std::string &planted) {
-    method.planted = {planted};
-    method.name += ", " + planted;
-    const std::vector<MotionResult> results = run(moving, {method});
-    EXPECT_FALSE(results[0].picture.passes && results[0].tiles.passes)
-        << planted;
-  }
-
-  // Presets whose bias is bounded, not zero.
-  static void expect_within_bounds(const MovingScene &moving) {
-    std::vector<const Preset *> presets;
-    std::vector<MotionMethod> methods;
-    for (const Preset &preset : preset_table()) {
-      if (preset.energy_bound == 0.0)
-        continue;
-      presets.push_back(&preset);
-      methods.push_back(
-          {preset.name, [&preset](int) { return preset.settings; }});
-    }
-    const std::vector<MotionResult> results =
-        run(moving, methods, SEEDS_OF_BOUNDS);
-    for (std::size_t i = 0; i < presets.size(); ++i) {
-      EXPECT_NEAR(results[i].energy, 1.0, presets[i]->energy_bound)
-          << presets[i]->name;
-    }
-  }
-
-  static std::unique_ptr<Context> context_;
-
-private:
-  static TileReference render_truth(const World &world, const RayTracer &tracer,
-                                    const CameraRecord &camera) {
-    ReferenceSettings settings;
-    settings.width = WIDTH_PX;
-    settings.height = HEIGHT_PX;
-    settings.camera = camera;
-    settings.direct_only = true;
-    settings.spp = 4096;
-    settings.seed = 5;
-    const ReferenceResult result = render_reference(world, tracer, settings);
-    return {result.radiance, result.variance};
-  }
-
-  // Pixels in which the rasterizer and the reference's ray round to different
-  // triangles.
-  static std::set<std::uint32_t> find_silhouettes(World &world,
-                                                  const RayTracer &tracer,
-                                                  const CameraRecord &camera) {
-    Renderer renderer(world, tracer, WIDTH_PX, HEIGHT_PX);
-    const auto seen =
-        renderer.render({camera, 0, 0, {}}).gbuffer.seen.download<glm::uvec2>();
-    std::set<std::uint32_t> found;
-    for (std::uint32_t pixel = 0; pixel < seen.size(); ++pixel) {
-      const glm::vec2 centre(float(pixel % WIDTH_PX) + 0.5f,
-                             float(pixel / WIDTH_PX) + 0.5f);
-      const PixelRay view =
-          camera_ray(camera, centre, glm::vec2(WIDTH_PX, HEIGHT_PX));
-      const RayRecord ray{view.origin, RAY_INFINITY, view.direction, pixel};
-      const auto hit =
-          tracer.trace_closest(ray, {0, 0, RAY_CAMERA}, BackFaces::PASS);
-      if (seen[pixel] != (hit ? glm::uvec2(hit->instance, hit->primitive)
-                              : glm::uvec2(INVALID_INDEX)))
-        found.insert(pixel);
-    }
-    EXPECT_LE(found.size(), seen.size() / 200);
-    return found;
-  }
-
-  static void clear(Image &image, const std::set<std::uint32_t> &pixels) {
-    for (const std::uint32_t pixel : pixels) {
-      for (int c = 0; c < 3; ++c)
-        image.values[3 * std::size_t(pixel) + std::size_t(c)] = 0.0f;
-    }
-  }
-
-  class Runner {
-  public:
-    Runner(World &world, const RayTracer &tracer, const MotionMethod &method)
-        : method_(method),
-          renderer_(std::make_unique<Renderer>(world, tracer, WIDTH_PX,
-                                               HEIGHT_PX, method.planted)) {}
-
-    void render(const CameraRecord &camera, std::uint32_t seed, int frame,
-                const std::set<std::uint32_t> &left_out) {
-      renderer_->update();
-      if (frame == 0)
-        renderer_->reset_history();
-      const RenderSettings settings = method_.settings(frame);
-      if (!settings.reuses() && frame != LAST_FRAME &&
-          !method_.draws_all_frames)
-        return;
-      const FrameOutput output =
-          renderer_->render({camera, std::uint32_t(frame), seed, settings});
-      if (frame != LAST_FRAME)
-        return;
-      Image image = renderer_->read_radiance(output.radiance);
-      clear(image, left_out);
-      tiles_.add(image);
-      picture_.add(image);
-    }
-
-    MotionResult finish(const TileReference &truth) const {
-      if (method_.planted.empty()) {
-        for (const auto &[name, value] : renderer_->read_counters()) {
-          EXPECT_EQ(value, 0u) << method_.name << ": " << name;
+    static std::vector<MotionResult> run(MovingScene moving, const std::vector<MotionMethod>& methods,
+                                         int seeds = SEEDS) {
+        moving.pose(moving.scene, LAST_FRAME);
+        World world = build_world(moving.scene, moving.options);
+        const auto tracer = create_embree_tracer(world);
+        const double aspect = double(WIDTH_PX) / HEIGHT_PX;
+        const CameraRecord camera = look_at(world, moving.camera_ws, moving.target_ws, 45.0, aspect);
+        TileReference truth = render_truth(world, *tracer, camera);
+        const std::set<std::uint32_t> left_out = find_silhouettes(world, *tracer, camera);
+        for (Image* image : {&truth.mean, &truth.variance}) clear(*image, left_out);
+        std::vector<Runner> runners;
+        for (const MotionMethod& method : methods) runners.emplace_back(world, *tracer, method);
+        for (int seed = 0; seed < seeds; ++seed) {
+            for (int frame = 0; frame <= LAST_FRAME; ++frame) {
+                moving.pose(moving.scene, frame);
+                update_world(world, moving.scene, 0.0);
+                tracer->update(world);
+                for (Runner& runner : runners)
+                    runner.render(camera, std::uint32_t(seed) + 100u, frame, left_out);
+            }
         }
-      }
-      MotionResult result{picture_.test(truth, SIGNIFICANCE),
-                          tiles_.test(truth, SIGNIFICANCE)};
-      result.energy = result.picture.mean / result.picture.reference_mean;
-      fmt::print("{}: energy {:.4f} +- {:.4f}, finds {:.2g} %; {}\n",
-                 method_.name, result.energy,
-                 result.picture.standard_error / result.picture.reference_mean,
-                 100.0 * result.picture.detectable_bias,
-                 describe(result.tiles));
-      return result;
+        std::vector<MotionResult> results;
+        for (Runner& runner : runners) results.push_back(runner.finish(truth));
+        return results;
+    }
+
+    // The reference's mean, in the picture and in every tile, by a test that could tell otherwise.
+    static void expect_no_bias(const MovingScene& moving, const std::vector<MotionMethod>& methods,
+                               int seeds = SEEDS) {
+        const std::vector<MotionResult> results = run(moving, methods, seeds);
+        for (std::size_t i = 0; i < methods.size(); ++i) {
+            EXPECT_TRUE(results[i].picture.passes) << methods[i].name;
+            EXPECT_TRUE(results[i].tiles.passes) << methods[i].name;
+            EXPECT_LE(results[i].picture.detectable_bias, DETECTABLE_IN_PICTURE) << methods[i].name;
+            EXPECT_LE(results[i].tiles.detectable_bias, DETECTABLE_IN_TILE) << methods[i].name;
+        }
+    }
+
+    // The same test fails on the method with a mistake planted in it.
+    static void expect_found(const MovingScene& moving, MotionMethod method, const std::string& planted) {
+        method.planted = {planted};
+        method.name += ", " + planted;
+        const std::vector<MotionResult> results = run(moving, {method});
+        EXPECT_FALSE(results[0].picture.passes && results[0].tiles.passes) << planted;
+    }
+
+    // Presets whose bias is bounded, not zero.
+    static void expect_within_bounds(const MovingScene& moving) {
+        std::vector<const Preset*> presets;
+        std::vector<MotionMethod> methods;
+        for (const Preset& preset : preset_table()) {
+            if (preset.energy_bound == 0.0) continue;
+            presets.push_back(&preset);
+            methods.push_back({preset.name, [&preset](int) { return preset.settings; }});
+        }
+        const std::vector<MotionResult> results = run(moving, methods, SEEDS_OF_BOUNDS);
+        for (std::size_t i = 0; i < presets.size(); ++i) {
+            EXPECT_NEAR(results[i].energy, 1.0, presets[i]->energy_bound) << presets[i]->name;
+        }
     }
 
   private:
-    MotionMethod method_;
-    std::unique_ptr<Renderer> renderer_;
-    TileSamples tiles_{WIDTH_PX, HEIGHT_PX, TILE_PX};
-    TileSamples picture_{WIDTH_PX, HEIGHT_PX, WIDTH_PX};
-  };
+    static TileReference render_truth(const World& world, const RayTracer& tracer,
+                                      const CameraRecord& camera) {
+        ReferenceSettings settings;
+        settings.width = WIDTH_PX;
+        settings.height = HEIGHT_PX;
+        settings.camera = camera;
+        settings.direct_only = true;
+        settings.spp = 4096;
+        settings.seed = 5;
+        const ReferenceResult result = render_reference(world, tracer, settings);
+        return {result.radiance, result.variance};
+    }
+
+    // Pixels in which the rasterizer and the reference's ray round to different triangles.
+    static std::set<std::uint32_t> find_silhouettes(World& world, const RayTracer& tracer,
+                                                    const CameraRecord& camera) {
+        Renderer renderer(world, tracer, WIDTH_PX, HEIGHT_PX);
+        const auto seen = renderer.render({camera, 0, 0, {}}).gbuffer.seen.download<glm::uvec2>();
+        std::set<std::uint32_t> found;
+        for (std::uint32_t pixel = 0; pixel < seen.size(); ++pixel) {
+            const glm::vec2 centre(float(pixel % WIDTH_PX) + 0.5f, float(pixel / WIDTH_PX) + 0.5f);
+            const PixelRay view = camera_ray(camera, centre, glm::vec2(WIDTH_PX, HEIGHT_PX));
+            const RayRecord ray{view.origin, RAY_INFINITY, view.direction, pixel};
+            const auto hit = tracer.trace_closest(ray, {0, 0, RAY_CAMERA}, BackFaces::PASS);
+            if (seen[pixel] != (hit ? glm::uvec2(hit->instance, hit->primitive) : glm::uvec2(INVALID_INDEX)))
+                found.insert(pixel);
+        }
+        EXPECT_LE(found.size(), seen.size() / 200);
+        return found;
+    }
+
+    static void clear(Image& image, const std::set<std::uint32_t>& pixels) {
+        for (const std::uint32_t pixel : pixels) {
+            for (int c = 0; c < 3; ++c) image.values[3 * std::size_t(pixel) + std::size_t(c)] = 0.0f;
+        }
+    }
+
+    class Runner {
+      public:
+        Runner(World& world, const RayTracer& tracer, const MotionMethod& method)
+            : method_(method),
+              renderer_(std::make_unique<Renderer>(world, tracer, WIDTH_PX, HEIGHT_PX, method.planted)) {}
+
+        void render(const CameraRecord& camera, std::uint32_t seed, int frame,
+                    const std::set<std::uint32_t>& left_out) {
+            renderer_->update();
+            if (frame == 0) renderer_->reset_history();
+            const RenderSettings settings = method_.settings(frame);
+            if (!settings.reuses() && frame != LAST_FRAME && !method_.draws_all_frames) return;
+            const FrameOutput output = renderer_->render({camera, std::uint32_t(frame), seed, settings});
+            if (frame != LAST_FRAME) return;
+            Image image = renderer_->read_radiance(output.radiance);
+            clear(image, left_out);
+            tiles_.add(image);
+            picture_.add(image);
+        }
+
+        MotionResult finish(const TileReference& truth) const {
+            if (method_.planted.empty()) {
+                for (const auto& [name, value] : renderer_->read_counters()) {
+                    EXPECT_EQ(value, 0u) << method_.name << ": " << name;
+                }
+            }
+            MotionResult result{picture_.test(truth, SIGNIFICANCE), tiles_.test(truth, SIGNIFICANCE)};
+            result.energy = result.picture.mean / result.picture.reference_mean;
+            fmt::print("{}: energy {:.4f} +- {:.4f}, finds {:.2g} %; {}\n", method_.name, result.energy,
+                       result.picture.standard_error / result.picture.reference_mean,
+                       100.0 * result.picture.detectable_bias, describe(result.tiles));
+            return result;
+        }
+
+      private:
+        MotionMethod method_;
+        std::unique_ptr<Renderer> renderer_;
+        TileSamples tiles_{WIDTH_PX, HEIGHT_PX, TILE_PX};
+        TileSamples picture_{WIDTH_PX, HEIGHT_PX, WIDTH_PX};
+    };
 };
 
-inline std::unique_ptr<Context> MotionTest::context_;
-
-// The preset `unbiased` with other weights, and with what else a case changes.
-// Many candidates cost little here and leave less noise for a bias to hide in.
-inline MotionMethod
-unbiased(const std::string &name, Mis mis = Mis::PAIRWISE,
-         const std::function<void(RenderSettings &)> &change = {}) {
-  RenderSettings settings = find_preset("unbiased").settings;
-  settings.mis = mis;
-  settings.candidates = 64;
-  settings.motion_cap =
-      settings.confidence_cap; // a long history shows its faults
-  if (change)
-    change(settings);
-  return {name, [settings](int) { return settings; }};
+// The preset `unbiased` with other weights, and with what else a case changes. Many candidates cost little
+// here and leave less noise for a bias to hide in.
+inline MotionMethod unbiased(const std::string& name, Mis mis = Mis::PAIRWISE,
+                             const std::function<void(RenderSettings&)>& change = {}) {
+    RenderSettings settings = find_preset("unbiased").settings;
+    settings.mis = mis;
+    settings.candidates = 64;
+    settings.motion_cap = settings.confidence_cap;  // a long history shows its faults
+    if (change) change(settings);
+    return {name, [settings](int) { return settings; }};
 }
 
 inline std::vector<MotionMethod> unbiased_methods() {
-  return {unbiased("pairwise", Mis::PAIRWISE),
-          unbiased("balance", Mis::BALANCE)};
+    return {unbiased("pairwise", Mis::PAIRWISE), unbiased("balance", Mis::BALANCE)};
 }
 
-} // namespace tarn::test
+}  // namespace tarn::test
