@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "shared/math/colour.h"
 #include "shared/math/display.h"
 
 namespace tarn {
@@ -16,11 +17,6 @@ float encode_srgb(float linear) {
 
 float decode_srgb(float encoded) {
     return linear_from_srgb(encoded);
-}
-
-void tone_map_neutral(float rgb[3]) {
-    const vec3 mapped = map_tone_neutral(vec3(rgb[0], rgb[1], rgb[2]));
-    for (int c = 0; c < 3; ++c) rgb[c] = mapped[c];
 }
 
 Image display_from_radiance(const Image& radiance, float exposure_ev) {
@@ -41,8 +37,8 @@ float auto_exposure_ev(const Image& radiance) {
     log_luminances.reserve(radiance.pixel_count());
     for (std::size_t i = 0; i < radiance.values.size(); i += 3) {
         const float* rgb = &radiance.values[i];
-        const float luminance = 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
-        if (std::isfinite(luminance) && luminance > 0.0f) log_luminances.push_back(std::log2(luminance));
+        const float value = luminance(vec3(rgb[0], rgb[1], rgb[2]));
+        if (std::isfinite(value) && value > 0.0f) log_luminances.push_back(std::log2(value));
     }
     if (log_luminances.empty()) return 0.0f;
     std::sort(log_luminances.begin(), log_luminances.end());

@@ -10,11 +10,6 @@ namespace tarn {
 float encode_srgb(float linear);
 float decode_srgb(float encoded);
 
-// Khronos PBR Neutral tone mapping of linear Rec. 709 radiance, in place (Khronos Group, "PBR Neutral Tone
-// Mapper Specification", 2024): colours up to 0.8 keep hue and saturation, brighter ones are compressed
-// towards white.
-void tone_map_neutral(float rgb[3]);
-
 // Returns display-encoded RGB in [0, 1]: radiance times 2^exposure_ev, tone-mapped, sRGB-encoded. Negative
 // and NaN values count as 0, infinite ones as white. 3 channels in and out.
 Image display_from_radiance(const Image& radiance, float exposure_ev);

@@ -24,11 +24,11 @@ class Error : public std::runtime_error {
 
 }  // namespace tarn
 
-// Stops the program when `condition` is false. On in Debug and in the sanitizer build; compiles to nothing
-// else.
-#ifdef NDEBUG
-#define TARN_ASSERT(condition, ...) ((void)sizeof(!(condition)))
-#else
+// Stops the program when `condition` is false. On where CMake's option TARN_ASSERTIONS is: unless told
+// otherwise, wherever the tests are built. Else it compiles to nothing.
+#ifdef TARN_ASSERTIONS
 #define TARN_ASSERT(condition, ...) \
     ((condition) ? (void)0 : ::tarn::fail_assertion(#condition, __FILE__, __LINE__, fmt::format(__VA_ARGS__)))
+#else
+#define TARN_ASSERT(condition, ...) ((void)sizeof(!(condition)))
 #endif

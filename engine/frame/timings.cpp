@@ -6,7 +6,7 @@ namespace tarn {
 void TimingLog::add(const FrameTimings& timings) {
     frame_ms_.push_back(timings.frame_ms);
     for (const PassTiming& pass : timings.passes) {
-        if (!pass_ms_.contains(pass.name)) order_.push_back(pass.name);
+        if (!pass_ms_.contains(pass.name)) passes_.push_back(pass);
         pass_ms_[pass.name].push_back(pass.ms);
     }
 }
@@ -16,8 +16,8 @@ double TimingLog::frame_quantile_ms(double q) const {
 }
 
 std::vector<PassTiming> TimingLog::pass_medians() const {
-    std::vector<PassTiming> medians;
-    for (const std::string& name : order_) medians.push_back({name, quantile(pass_ms_.at(name), 0.5)});
+    std::vector<PassTiming> medians = passes_;
+    for (PassTiming& pass : medians) pass.ms = quantile(pass_ms_.at(pass.name), 0.5);
     return medians;
 }
 

@@ -30,12 +30,12 @@ class TimingLog {
     // Quantile of the frame times, ms, 0 <= q <= 1; 0 without frames.
     double frame_quantile_ms(double q) const;
 
-    // Median of each pass, ms, in the order in which the passes first ran.
+    // Each pass with the median of its times, in the order in which the passes first ran.
     std::vector<PassTiming> pass_medians() const;
 
   private:
     std::vector<double> frame_ms_;
-    std::vector<std::string> order_;
+    std::vector<PassTiming> passes_;  // each as it first ran, in that order
     std::map<std::string, std::vector<double>> pass_ms_;
 };
 

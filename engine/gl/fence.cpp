@@ -21,10 +21,4 @@ void Fence::wait() const {
     if (status == GL_WAIT_FAILED) throw Error("glClientWaitSync failed with GL error 0x{:04x}", glGetError());
 }
 
-bool Fence::is_signaled() const {
-    GLint status = GL_UNSIGNALED;
-    glGetSynciv(sync_, GL_SYNC_STATUS, 1, nullptr, &status);
-    return status == GL_SIGNALED;
-}
-
 }  // namespace tarn

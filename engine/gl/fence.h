@@ -21,9 +21,6 @@ class Fence {
     // Flushes and blocks until those commands are done; Error when the driver fails to wait.
     void wait() const;
 
-    // True when they are done; does not block.
-    bool is_signaled() const;
-
   private:
     GLsync sync_;
 };

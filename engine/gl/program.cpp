@@ -108,7 +108,7 @@ void Program::set(std::string_view uniform, const glm::mat4& value) const {
 
 GLint Program::require_location(std::string_view uniform) const {
     const GLint location = find_location(uniform);
-#ifndef NDEBUG
+#ifdef TARN_ASSERTIONS
     if (location < 0) throw Error("shader {} has no uniform '{}'", name_, uniform);
 #endif
     return location;

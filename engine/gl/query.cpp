@@ -20,12 +20,6 @@ void TimestampQuery::record() {
     glQueryCounter(id(), GL_TIMESTAMP);
 }
 
-bool TimestampQuery::is_ready() const {
-    GLint ready = GL_FALSE;
-    glGetQueryObjectiv(id(), GL_QUERY_RESULT_AVAILABLE, &ready);
-    return ready == GL_TRUE;
-}
-
 std::uint64_t TimestampQuery::read_ns() const {
     GLuint64 time_ns = 0;
     glGetQueryObjectui64v(id(), GL_QUERY_RESULT, &time_ns);

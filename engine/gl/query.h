@@ -15,9 +15,6 @@ class TimestampQuery {
     // Asks for the device's clock once all commands issued so far are done.
     void record();
 
-    // True when the answer has come; does not block.
-    bool is_ready() const;
-
     // The clock in nanoseconds of the last record(); blocks until it has come. Only differences mean
     // something.
     std::uint64_t read_ns() const;

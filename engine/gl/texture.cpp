@@ -123,14 +123,13 @@ void Texture2D::bind_image(unsigned unit, GLenum access) const {
 }
 
 BufferTexture::BufferTexture(std::string name, const Buffer& buffer, GLenum format)
-    : name_(std::move(name)),
-      texel_count_(buffer.size_bytes() / get_pixel_format(format).bytes),
-      handle_(create_texture(GL_TEXTURE_BUFFER)) {
+    : name_(std::move(name)), handle_(create_texture(GL_TEXTURE_BUFFER)) {
     set_label(GL_TEXTURE, id(), name_);
+    const std::size_t texel_count = buffer.size_bytes() / get_pixel_format(format).bytes;
     const GLint64 limit = get_gl_limit(GL_MAX_TEXTURE_BUFFER_SIZE);
-    if (GLint64(texel_count_) > limit)
-        throw Error("buffer texture '{}' has {} texels, GL_MAX_TEXTURE_BUFFER_SIZE is {}", name_,
-                    texel_count_, limit);
+    if (GLint64(texel_count) > limit)
+        throw Error("buffer texture '{}' has {} texels, GL_MAX_TEXTURE_BUFFER_SIZE is {}", name_, texel_count,
+                    limit);
     glTextureBuffer(id(), format, buffer.id());
     check_gl(fmt::format("buffer texture '{}' of format {}", name_, get_pixel_format(format).name));
 }

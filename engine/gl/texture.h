@@ -128,12 +128,10 @@ class BufferTexture {
     void bind(unsigned unit) const { glBindTextureUnit(unit, id()); }
 
     const std::string& name() const { return name_; }
-    std::size_t texel_count() const { return texel_count_; }
     GLuint id() const { return handle_.id(); }
 
   private:
     std::string name_;
-    std::size_t texel_count_;
     Handle<detail::delete_texture> handle_;
 };
 

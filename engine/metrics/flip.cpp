@@ -10,10 +10,10 @@
 #include <numbers>
 
 #include "core/display.h"
-#include "core/error.h"
 #include "metrics/convolve.h"
 #include "metrics/flip_colour.h"
 #include "metrics/image_error.h"
+#include "shared/math/colour.h"
 
 namespace tarn {
 namespace {
@@ -243,7 +243,7 @@ void find_exposures(const Image& reference, HdrFlip& flip) {
     std::vector<float> luminances(reference.pixel_count());
     for (std::size_t i = 0; i < luminances.size(); ++i) {
         const float* rgb = &reference.values[3 * i];
-        luminances[i] = 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
+        luminances[i] = luminance(vec3(rgb[0], rgb[1], rgb[2]));
     }
     std::sort(luminances.begin(), luminances.end());
     const float brightest = luminances.back();

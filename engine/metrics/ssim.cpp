@@ -2,11 +2,11 @@
 #include "metrics/ssim.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "metrics/convolve.h"
 #include "metrics/image_error.h"
+#include "shared/math/colour.h"
 
 namespace tarn {
 namespace {
@@ -16,7 +16,7 @@ Plane luma_of(const Image& source, const Image& other) {
     for (std::size_t i = 0; i < source.pixel_count(); ++i) {
         if (!is_pixel_finite(source, other, i)) continue;
         const auto channel = [&](std::size_t c) { return std::clamp(source.values[3 * i + c], 0.0f, 1.0f); };
-        luma.values[i] = 0.2126f * channel(0) + 0.7152f * channel(1) + 0.0722f * channel(2);
+        luma.values[i] = luminance(vec3(channel(0), channel(1), channel(2)));
     }
     return luma;
 }

@@ -1,9 +1,9 @@
 #include "plan/frame_plan.h"
 
+#include "shared/math/colour.h"
+
 namespace tarn {
 namespace {
-
-constexpr glm::vec3 LUMINANCE_WEIGHTS(0.2126f, 0.7152f, 0.0722f);
 
 // `runs`: whether the stage reuses samples at all.
 ReusePlan plan_reuse(const ReuseSettings& settings, bool runs, DebugView view) {
@@ -28,7 +28,7 @@ ReusePlan plan_reuse(const ReuseSettings& settings, bool runs, DebugView view) {
 }
 
 std::vector<glm::vec3> plan_targets(const DirectSettings& settings) {
-    if (!settings.per_channel) return {LUMINANCE_WEIGHTS};
+    if (!settings.per_channel) return {glm::vec3(LUMINANCE_WEIGHTS)};
     return {glm::vec3(1.0f, 0.0f, 0.0f), glm::vec3(0.0f, 1.0f, 0.0f), glm::vec3(0.0f, 0.0f, 1.0f)};
 }
 

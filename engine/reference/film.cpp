@@ -2,10 +2,12 @@
 
 #include <cmath>
 
+#include "shared/math/colour.h"
+
 namespace tarn {
 namespace {
 
-constexpr glm::dvec3 LUMINANCE{0.2126, 0.7152, 0.0722};
+constexpr glm::dvec3 LUMINANCE(LUMINANCE_WEIGHTS);
 // Pixels darker than this share of the mean count as if they were that bright.
 constexpr double DARK_SHARE = 0.01;
 

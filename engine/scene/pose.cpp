@@ -3,7 +3,6 @@
 #include "scene/pose.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 

@@ -142,8 +142,7 @@ void draw_pass_rows(const FrameTimings& timings) {
 void draw_cost_section(const ViewerFacts& facts) {
     if (!begin_section("Cost (median of the last frames)")) return;
     draw_pass_rows(facts.timings);
-    show_text(
-        fmt::format("{} shadow rays, {:.2f} M rays/s", facts.shadow_rays, facts.shadow_rays_per_s * 1e-6));
+    show_text(fmt::format("{} shadow rays, {:.2f} M rays/s", facts.shadow_rays, facts.rays_per_s * 1e-6));
     show_text(fmt::format("{} of {} triangles drawn", facts.triangles_drawn, facts.triangles_total));
 }
 

@@ -43,7 +43,7 @@ struct ViewerFacts {
     double frames_per_s = 0.0;
     FrameTimings timings;
     std::uint64_t shadow_rays = 0;  // of the last frame
-    double shadow_rays_per_s = 0.0;
+    double rays_per_s = 0.0;        // of all kinds, while they are traced
     std::uint64_t triangles_drawn = 0;
     std::uint64_t triangles_total = 0;
     std::map<std::string, std::uint64_t> counters;

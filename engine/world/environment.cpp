@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "shared/math/colour.h"
 #include "shared/math/environment.h"
 #include "world/alias_builder.h"
 #include "world/build_steps.h"

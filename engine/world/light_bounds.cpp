@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shared/math/colour.h"
 #include "shared/math/light_tree.h"
 
 namespace tarn {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shared/math/colour.h"
+
 namespace tarn {
 namespace {
 

@@ -3,8 +3,6 @@
 #include "shared/interface/records.h"
 #include "shared/math/random.h"
 
-ivec2 frame_size_px() { return ivec2(frame_size.xy); }
-
 // As the frame block stores it: whether it is orthographic stands beside its position.
 CameraRecord unpack_camera(vec4 position, vec4 right, vec4 up, vec4 forward) {
     CameraRecord camera;

@@ -1,6 +1,7 @@
 // One view of a finished frame as display-encoded colours; which one, the define says (engine/passes/display.cpp).
 #include "shared/interface/constants/display.h"
 #include "lib/gbuffer.glsl"
+#include "shared/math/colour.h"
 #include "shared/math/display.h"
 #include "shared/math/random.h"
 

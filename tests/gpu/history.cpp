@@ -4,11 +4,11 @@
 
 #include <cstring>
 
-#include "platform/context.h"
 #include "rays/ray_tracer.h"
 #include "renderer/renderer.h"
 #include "shared/math/random.h"
 #include "support/moving_scenes.h"
+#include "support/on_context.h"
 
 namespace tarn::test {
 namespace {
@@ -69,13 +69,7 @@ RenderSettings settings_of(const char* preset) {
     return find_preset(preset).settings;
 }
 
-class History : public testing::Test {
-  protected:
-    static void SetUpTestSuite() { context_ = create_context({}); }
-    static void TearDownTestSuite() { context_.reset(); }
-
-    static inline std::unique_ptr<Context> context_;
-};
+class History : public OnContext<> {};
 
 // Without this the others would pass in a renderer that never looks back.
 TEST_F(History, AFrameThatFollowsLooksBack) {

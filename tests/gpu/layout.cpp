@@ -11,9 +11,9 @@
 #include "gl/texture.h"
 #include "gpu/layout_records.h"
 #include "gpu/shader_folder.h"
-#include "platform/context.h"
 #include "shared/interface/frame_block.h"
 #include "support/draws.h"
+#include "support/on_context.h"
 #include "support/toy_scenes.h"
 #include "world/world.h"
 
@@ -72,11 +72,8 @@ Words random_fields(const Record& record) {
     return words;
 }
 
-class Layout : public testing::TestWithParam<Record> {
+class Layout : public OnContext<testing::TestWithParam<Record>> {
   protected:
-    static void SetUpTestSuite() { context_ = create_context({}); }
-    static void TearDownTestSuite() { context_.reset(); }
-
     Layout() {
         std::filesystem::create_directory_symlink(
             std::filesystem::path(TARN_SOURCE_DIR) / "shaders" / "shared", folder_.root() / "shared");
@@ -133,7 +130,6 @@ class Layout : public testing::TestWithParam<Record> {
     }
 
     ShaderFolder folder_;
-    static inline std::unique_ptr<Context> context_;
 };
 
 TEST_P(Layout, ShadersUnpackWhatCppPacked) {

@@ -4,9 +4,9 @@
 
 #include <cstdio>
 
-#include "platform/context.h"
 #include "renderer/renderer.h"
 #include "shared/math/random.h"
+#include "support/on_context.h"
 #include "support/test_scenes.h"
 
 namespace tarn::test {
@@ -23,11 +23,8 @@ struct Agreement {
     double worst_position = 0.0;
 };
 
-class RasterAgainstRays : public testing::Test {
+class RasterAgainstRays : public OnContext<> {
   protected:
-    static void SetUpTestSuite() { context_ = create_context({}); }
-    static void TearDownTestSuite() { context_.reset(); }
-
     Agreement compare(TestScene& scene, const CameraRecord& camera) {
         Renderer renderer(scene.world, *scene.tracer, WIDTH_PX, HEIGHT_PX);
         FrameInput input;
@@ -72,8 +69,6 @@ class RasterAgainstRays : public testing::Test {
         EXPECT_GE(same, 0.995);
         EXPECT_GE(placed, 0.999);
     }
-
-    static inline std::unique_ptr<Context> context_;
 };
 
 TEST_F(RasterAgainstRays, LanternCourt) {

@@ -10,6 +10,7 @@
 #include "gpu/shader_folder.h"
 #include "platform/context.h"
 #include "platform/environment.h"
+#include "support/on_context.h"
 
 namespace tarn {
 namespace {
@@ -111,14 +112,8 @@ TEST(ShaderSource, TheRootComesFromTheEnvironment) {
     EXPECT_EQ(ProgramLibrary().compute("a").name(), "a");
 }
 
-class Programs : public testing::Test {
+class Programs : public test::OnDebugContext<> {
   protected:
-    static void SetUpTestSuite() {
-        ContextOptions options;
-        options.debug = true;
-        context_ = create_context(options);
-    }
-    static void TearDownTestSuite() { context_.reset(); }
     void SetUp() override { take_debug_errors(); }
 
     // A program that stores `expression`, after `head`.
@@ -138,7 +133,6 @@ class Programs : public testing::Test {
         return result.download<std::uint32_t>()[0];
     }
 
-    static inline std::unique_ptr<Context> context_;
     ShaderFolder folder_;
 };
 
@@ -187,12 +181,17 @@ TEST_F(Programs, ALinkErrorIsReported) {
     EXPECT_NE(message.find("uv"), std::string::npos) << message;
 }
 
-TEST_F(Programs, UnknownUniformsAreIgnored) {
+TEST_F(Programs, AnUnknownUniformIsAnErrorWhereAssertionsAreOn) {
     write_store("uint(known)", "uniform int known;\n");
     ProgramLibrary library(folder_.root());
     const Program& program = library.compute("store");
     program.set("known", 5);
+#ifdef TARN_ASSERTIONS
+    const std::string message = catch_message<Error>([&] { program.set("unknown", 6); });
+    EXPECT_EQ(message, "shader store has no uniform 'unknown'");
+#else
     program.set("unknown", 6);
+#endif
     EXPECT_TRUE(program.has_uniform("known"));
     EXPECT_FALSE(program.has_uniform("unknown"));
     EXPECT_EQ(run(program), 5u);

@@ -6,7 +6,7 @@
 
 #include "gl/program_library.h"
 #include "plan/shader_variants.h"
-#include "platform/context.h"
+#include "support/on_context.h"
 
 namespace tarn {
 namespace {
@@ -33,14 +33,8 @@ bool is_graphics(const std::string& pass) {
     return std::filesystem::exists(get_shader_root() / "passes" / (pass + ".vert"));
 }
 
-class ShaderVariants : public testing::TestWithParam<ShaderFamily> {
+class ShaderVariants : public test::OnDebugContext<testing::TestWithParam<ShaderFamily>> {
   protected:
-    static void SetUpTestSuite() {
-        ContextOptions options;
-        options.debug = true;
-        context_ = create_context(options);
-    }
-    static void TearDownTestSuite() { context_.reset(); }
     void SetUp() override { take_debug_errors(); }
 
     void compile(const Defines& defines) {
@@ -53,7 +47,6 @@ class ShaderVariants : public testing::TestWithParam<ShaderFamily> {
     }
 
     ProgramLibrary programs_;
-    static inline std::unique_ptr<Context> context_;
 };
 
 // Each of its own variants with the least and the most that a scene can have, and its first one with every

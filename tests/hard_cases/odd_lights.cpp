@@ -2,8 +2,8 @@
 // pictures stay finite, counters stay at zero, and what is known in closed form stays true.
 #include <gtest/gtest.h>
 
-#include "platform/context.h"
 #include "scene/gltf_import.h"
+#include "support/on_context.h"
 #include "support/toy_render.h"
 #include "unit/gltf_builder.h"
 
@@ -15,13 +15,7 @@ constexpr int HEIGHT_PX = 65;
 constexpr double INV_PI_D = 0.318309886183790672;
 const DirectMode MODES[] = {DirectMode::UNIFORM, DirectMode::RIS};
 
-class OddLights : public testing::Test {
-  protected:
-    static void SetUpTestSuite() { context_ = create_context({}); }
-    static void TearDownTestSuite() { context_.reset(); }
-
-    static inline std::unique_ptr<Context> context_;
-};
+class OddLights : public OnContext<> {};
 
 // A floor of 8 m at y = 0 with albedo 0.5, instance 0.
 ToyScene make_floor() {
@@ -29,16 +23,6 @@ ToyScene make_floor() {
     const MaterialIndex grey = toy.add_material(lambert_material(glm::vec3(0.5f)));
     toy.add_quad(grey, {-4.0f, 0.0f, 4.0f}, {8.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -8.0f});
     return toy;
-}
-
-PunctualLight make_point(float intensity) {
-    PunctualLight light;
-    light.intensity = glm::vec3(intensity);
-    return light;
-}
-
-glm::dmat4 at_place(double x, double y, double z) {
-    return glm::translate(glm::dmat4(1.0), glm::dvec3(x, y, z));
 }
 
 ToyRender make_render(const ToyScene& toy, const WorldOptions& options = {}) {

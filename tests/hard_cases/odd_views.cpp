@@ -2,7 +2,7 @@
 // counters at zero.
 #include <gtest/gtest.h>
 
-#include "platform/context.h"
+#include "support/on_context.h"
 #include "support/toy_render.h"
 
 namespace tarn::test {
@@ -12,23 +12,7 @@ constexpr int WIDTH_PX = 97;
 constexpr int HEIGHT_PX = 65;
 const DirectMode MODES[] = {DirectMode::UNIFORM, DirectMode::RIS};
 
-class OddViews : public testing::Test {
-  protected:
-    static void SetUpTestSuite() { context_ = create_context({}); }
-    static void TearDownTestSuite() { context_.reset(); }
-
-    static inline std::unique_ptr<Context> context_;
-};
-
-PunctualLight make_point(float intensity) {
-    PunctualLight light;
-    light.intensity = glm::vec3(intensity);
-    return light;
-}
-
-glm::dmat4 at_place(double x, double y, double z) {
-    return glm::translate(glm::dmat4(1.0), glm::dvec3(x, y, z));
-}
+class OddViews : public OnContext<> {};
 
 // A ball of 2 m with a point light in its middle, and the camera beside it: whatever is seen is lit by
 // I / d^2 cos albedo / pi.

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/statistics.h"
-#include "platform/context.h"
+#include "support/on_context.h"
 #include "support/toy_render.h"
 
 namespace tarn::test {
@@ -12,13 +12,7 @@ namespace {
 constexpr int WIDTH_PX = 72;
 constexpr int HEIGHT_PX = 48;
 
-class RestirHazards : public testing::Test {
-  protected:
-    static void SetUpTestSuite() { context_ = create_context({}); }
-    static void TearDownTestSuite() { context_.reset(); }
-
-    static inline std::unique_ptr<Context> context_;
-};
+class RestirHazards : public OnContext<> {};
 
 // A floor with a wall on it and a lamp over it.
 ToyScene make_lamp_stage(float intensity) {

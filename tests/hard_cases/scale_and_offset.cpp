@@ -2,8 +2,8 @@
 // same light.
 #include <gtest/gtest.h>
 
-#include "platform/context.h"
 #include "scene/gltf_import.h"
+#include "support/on_context.h"
 #include "support/test_scenes.h"
 #include "support/toy_render.h"
 
@@ -13,13 +13,7 @@ namespace {
 constexpr int WIDTH_PX = 160;
 constexpr int HEIGHT_PX = 90;
 
-class HardScenes : public testing::Test {
-  protected:
-    static void SetUpTestSuite() { context_ = create_context({}); }
-    static void TearDownTestSuite() { context_.reset(); }
-
-    static inline std::unique_ptr<Context> context_;
-};
+class HardScenes : public OnContext<> {};
 
 glm::dmat4 scaled_by(double scale) {
     return glm::scale(glm::dmat4(1.0), glm::dvec3(scale));

@@ -14,18 +14,19 @@ namespace tarn::test {
 constexpr int GOLDEN_WIDTH_PX = 160;
 constexpr int GOLDEN_HEIGHT_PX = 90;
 
-// Frames of one scene, camera and mode, rendered one after the other from frame 0; some of them have goldens.
+// Frames of one scene, camera and method, rendered one after the other from frame 0; some of them have
+// goldens.
 struct ImageSequence {
     std::string scene;
     std::string camera;
-    DirectMode mode = DirectMode::RIS;
-    bool reference = false;    // the path tracer instead: one picture, all bounces
+    std::string method;        // a choice of --direct or a preset; "reference": the path tracer, all bounces
     float exposure_ev = 0.0f;  // fixed, so that a picture that is too bright as a whole differs too
     std::vector<int> frames;   // 1 is the first; frame N is rendered after the N - 1 before it
     ImageTolerance tolerance;
 
     // "cornell_main_ris"; the goldens add "_frame16".
     std::string name() const;
+    bool is_reference() const { return method == "reference"; }
     std::string golden_name(int frame) const;
 };
 

@@ -8,7 +8,7 @@
 
 #include "image/image_cases.h"
 #include "image_io/image_io.h"
-#include "platform/context.h"
+#include "support/on_context.h"
 
 namespace tarn::test {
 
@@ -34,13 +34,7 @@ const ImageSequence& find_sequence(const std::string& name) {
     throw std::out_of_range(name);
 }
 
-class Images : public testing::TestWithParam<ImageSequence> {
-  protected:
-    static void SetUpTestSuite() { context_ = create_context({}); }
-    static void TearDownTestSuite() { context_.reset(); }
-
-    static inline std::unique_ptr<Context> context_;
-};
+class Images : public OnContext<testing::TestWithParam<ImageSequence>> {};
 
 TEST_P(Images, MatchTheirGoldens) {
     const ImageSequence& sequence = GetParam();
@@ -98,6 +92,7 @@ TEST_P(NegativeControls, AShiftByOnePixelIsNoticed) {
 INSTANTIATE_TEST_SUITE_P(Golden, NegativeControls,
                          testing::Values(find_sequence("cornell_main_ris"),
                                          find_sequence("lantern_court_main_uniform"),
+                                         find_sequence("lantern_court_main_balanced"),
                                          find_sequence("point_over_plane_main_ris")),
                          [](const auto& info) { return info.param.name(); });
 

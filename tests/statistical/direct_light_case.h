@@ -7,12 +7,12 @@
 #include <cstdio>
 #include <set>
 
-#include "core/tile_test.h"
-#include "platform/context.h"
 #include "reference/reference.h"
 #include "renderer/renderer.h"
 #include "shared/math/random.h"
+#include "support/on_context.h"
 #include "support/test_scenes.h"
+#include "support/tile_test.h"
 #include "world/scene_access.h"
 
 namespace tarn::test {
@@ -34,13 +34,13 @@ class DirectLightCase {
     static int tile_px(const std::string& name) { return name == "cornell" ? 27 : 16; }
 
     // Needs a current GL context. `draws_per_pixel`: light candidates that the test will draw in all.
-    DirectLightCase(const std::string& name, double draws_per_pixel)
+    DirectLightCase(const std::string& name, double draws_per_pixel, std::uint64_t reference_spp = 4096)
         : name_(name), scene_(load_test_scene(file_of(name))) {
         const double aspect = double(WIDTH_PX) / HEIGHT_PX;
         // Of the box the camera sees nothing but the inside: no tile is dark.
         camera_ = name == "cornell" ? look_at(scene_->world, {0.0, 0.2, 0.5}, {0.0, 0.19, -0.3}, 28.0, aspect)
                                     : first_camera(*scene_, aspect);
-        render_reference_image();
+        render_reference_image(reference_spp);
         left_out_ = find_silhouettes();
         // The one scene with seldom drawn lights at arm's length of what they light.
         if (name == "lantern_court") left_out_.merge(find_rare_events(draws_per_pixel));
@@ -67,13 +67,13 @@ class DirectLightCase {
     }
 
   private:
-    void render_reference_image() {
+    void render_reference_image(std::uint64_t spp) {
         ReferenceSettings settings;
         settings.width = WIDTH_PX;
         settings.height = HEIGHT_PX;
         settings.camera = camera_;
         settings.direct_only = true;
-        settings.spp = 4096;
+        settings.spp = spp;
         settings.seed = 7;
         const ReferenceResult reference = render_reference(scene_->world, *scene_->tracer, settings);
         EXPECT_EQ(reference.non_finite, 0u);
@@ -146,12 +146,11 @@ class DirectLightCase {
 };
 
 // All tests of a scene share its case: the reference is what takes time.
-class DirectLightTest : public testing::TestWithParam<const char*> {
+class DirectLightTest : public OnContext<testing::TestWithParam<const char*>> {
   protected:
-    static void SetUpTestSuite() { context_ = create_context({}); }
     static void TearDownTestSuite() {
         case_.reset();
-        context_.reset();
+        OnContext::TearDownTestSuite();
     }
 
     void prepare(double draws_per_pixel) {
@@ -162,7 +161,6 @@ class DirectLightTest : public testing::TestWithParam<const char*> {
         }
     }
 
-    static inline std::unique_ptr<Context> context_;
     static inline std::unique_ptr<DirectLightCase> case_;
 };
 

@@ -7,10 +7,10 @@
 #include <functional>
 
 #include "core/statistics.h"
-#include "core/tile_test.h"
-#include "platform/context.h"
 #include "scene/gltf_import.h"
+#include "support/on_context.h"
 #include "support/test_scenes.h"
+#include "support/tile_test.h"
 #include "support/toy_render.h"
 
 namespace tarn::test {
@@ -24,13 +24,7 @@ const char* name_of(DirectMode mode) {
     return mode == DirectMode::UNIFORM ? "uniform" : "ris";
 }
 
-class GlClosedForms : public testing::Test {
-  protected:
-    static void SetUpTestSuite() { context_ = create_context({}); }
-    static void TearDownTestSuite() { context_.reset(); }
-
-    static inline std::unique_ptr<Context> context_;
-};
+class GlClosedForms : public OnContext<> {};
 
 using Defines = std::vector<std::string>;
 

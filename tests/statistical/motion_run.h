@@ -4,18 +4,17 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdio>
 #include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "core/tile_test.h"
-#include "platform/context.h"
 #include "reference/reference.h"
 #include "renderer/renderer.h"
 #include "shared/math/random.h"
 #include "support/moving_scenes.h"
+#include "support/on_context.h"
+#include "support/tile_test.h"
 
 namespace tarn::test {
 
@@ -41,11 +40,8 @@ struct MotionResult {
     double energy = 0.0;  // mean over the reference's
 };
 
-class MotionTest : public testing::Test {
+class MotionTest : public OnContext<> {
   protected:
-    static void SetUpTestSuite() { context_ = create_context({}); }
-    static void TearDownTestSuite() { context_.reset(); }
-
     // Independent runs of each method: more of them find smaller biases.
     static constexpr int SEEDS = 32;
     static constexpr int SEEDS_OF_BOUNDS = 8;
@@ -110,8 +106,6 @@ class MotionTest : public testing::Test {
             EXPECT_NEAR(results[i].energy, 1.0, presets[i]->energy_bound) << presets[i]->name;
         }
     }
-
-    static std::unique_ptr<Context> context_;
 
   private:
     static TileReference render_truth(const World& world, const RayTracer& tracer,
@@ -192,8 +186,6 @@ class MotionTest : public testing::Test {
         TileSamples picture_{WIDTH_PX, HEIGHT_PX, WIDTH_PX};
     };
 };
-
-inline std::unique_ptr<Context> MotionTest::context_;
 
 // The preset `unbiased` with other weights, and with what else a case changes. Many candidates cost little
 // here and leave less noise for a bias to hide in.

@@ -4,7 +4,6 @@
 
 #include <functional>
 
-#include "core/error.h"
 #include "support/brdf_oracle.h"
 #include "support/reference_run.h"
 #include "world/light_tree.h"

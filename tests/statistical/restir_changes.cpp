@@ -3,12 +3,10 @@
 // lights as they are now.
 #include <gtest/gtest.h>
 
-#include <cstdio>
-
-#include "core/tile_test.h"
 #include "platform/context.h"
 #include "reference/reference.h"
 #include "renderer/renderer.h"
+#include "support/tile_test.h"
 #include "support/toy_scenes.h"
 
 namespace tarn {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/statistics.h"
+#include "support/goodness_of_fit.h"
 
 namespace tarn::test {
 

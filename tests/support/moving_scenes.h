@@ -7,7 +7,6 @@
 #include <cmath>
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>
-#include <string>
 
 #include "support/toy_scenes.h"
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/log.h"
-#include "core/tile_test.h"
 #include "reference/reference.h"
+#include "support/tile_test.h"
 #include "support/toy_scenes.h"
 
 namespace tarn {

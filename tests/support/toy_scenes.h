@@ -116,4 +116,15 @@ inline std::vector<glm::vec3> sphere_corners(float radius, int bands) {
     return corners;
 }
 
+// A white point light.
+inline PunctualLight make_point(float intensity) {
+    PunctualLight light;
+    light.intensity = glm::vec3(intensity);
+    return light;
+}
+
+inline glm::dmat4 at_place(double x, double y, double z) {
+    return glm::translate(glm::dmat4(1.0), glm::dvec3(x, y, z));
+}
+
 }  // namespace tarn

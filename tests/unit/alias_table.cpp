@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "core/statistics.h"
 #include "shared/math/random.h"
 #include "support/draws.h"
 #include "support/histogram.h"

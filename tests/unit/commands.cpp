@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <fmt/format.h>
+
 #include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -24,18 +26,16 @@ Arguments operator+(Arguments first, const Arguments& second) {
     return first;
 }
 
-// The arguments on one line, for messages.
-std::string join(const Arguments& arguments) {
-    std::string text;
-    for (const std::string& argument : arguments) text += argument + " ";
-    return text;
-}
-
 // ---- Help ---------------------------------------------------------------------------------------
 
 const Arguments SCENE_OPTIONS = {"SCENE",  "--size",    "--camera", "--environment",
                                  "--seed", "--threads", "--time",   "--scene"};
 const Arguments RENDER_OPTIONS = {"--direct", "--candidates", "--context", "--exposure"};
+
+// The arguments on one line, for messages.
+std::string join(const Arguments& arguments) {
+    return fmt::format("{} ", fmt::join(arguments, " "));
+}
 
 void expect_help(const Arguments& command, const Arguments& words) {
     const ProcessResult result = run_tarn(command + Arguments{"--help"});

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <tiny_gltf.h>
 
-#include <cmath>
 #include <cstring>
 #include <functional>
 #include <glm/glm.hpp>

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "shared/math/display.h"
+
 namespace tarn {
 namespace {
 
@@ -30,19 +32,15 @@ TEST(Srgb, matches_the_standard_and_its_inverse) {
 }
 
 TEST(ToneMapNeutral, takes_off_the_glare_and_compresses_highlights) {
-    float dark[3] = {0.05f, 0.05f, 0.05f};  // 6.25 * 0.05^2
-    tone_map_neutral(dark);
+    const vec3 dark = map_tone_neutral(vec3(0.05f));  // 6.25 * 0.05^2
     EXPECT_NEAR(dark[1], 0.015625f, 1e-6);
-    float middle[3] = {0.5f, 0.3f, 0.1f};  // less 0.04
-    tone_map_neutral(middle);
+    const vec3 middle = map_tone_neutral(vec3(0.5f, 0.3f, 0.1f));  // less 0.04
     EXPECT_NEAR(middle[0], 0.46f, 1e-6);
     EXPECT_NEAR(middle[2], 0.06f, 1e-6);
-    float grey[3] = {4.0f, 4.0f, 4.0f};  // 1 - 0.24^2 / 3.44
-    tone_map_neutral(grey);
+    const vec3 grey = map_tone_neutral(vec3(4.0f));  // 1 - 0.24^2 / 3.44
     EXPECT_NEAR(grey[0], 0.983256f, 1e-6);
     // Peak 1.96 becomes 0.96, the others scale with it, then move to it by 1 - 1 / 1.15.
-    float colour[3] = {2.0f, 1.0f, 0.5f};
-    tone_map_neutral(colour);
+    const vec3 colour = map_tone_neutral(vec3(2.0f, 1.0f, 0.5f));
     EXPECT_NEAR(colour[0], 0.96f, 1e-6);
     EXPECT_NEAR(colour[1], 0.534090f, 1e-5);
     EXPECT_NEAR(colour[2], 0.321136f, 1e-5);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/statistics.h"
 #include "support/draws.h"
 #include "support/histogram.h"
 

@@ -2,4 +2,5 @@
 tarn_test(light_sources LABEL unit LIBRARIES tarn_world)
 tarn_test(light_updates LABEL unit LIBRARIES tarn_world)
 tarn_test(light_tree LABEL unit LIBRARIES tarn_world)
+tarn_test(light_tree_odd_tables LABEL unit LIBRARIES tarn_world)
 tarn_test(light_tree_bounds LABEL unit LIBRARIES tarn_world TBB::tbb)

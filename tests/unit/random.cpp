@@ -6,6 +6,7 @@
 #include <bit>
 #include <functional>
 
+#include "core/statistics.h"
 #include "support/histogram.h"
 
 namespace tarn {

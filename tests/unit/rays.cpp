@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include "shared/math/random.h"
 #include "support/ray_soup.h"

@@ -1,5 +1,5 @@
 // Enlarged pictures against values computed by hand.
-#include "core/resize.h"
+#include "bench/resize.h"
 
 #include <gtest/gtest.h>
 

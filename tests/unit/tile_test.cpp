@@ -1,9 +1,8 @@
 // The tile test is right as often as it says on Gaussian, skewed and blotchy noise, and finds planted bias.
-#include "core/tile_test.h"
+#include "support/tile_test.h"
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <random>

@@ -3,7 +3,6 @@
 
 #include <nlohmann/json.hpp>
 #include <span>
-#include <vector>
 
 #include "bench/sequence.h"
 

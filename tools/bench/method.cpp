@@ -1,8 +1,10 @@
 #include "bench/method.h"
 
 #include <algorithm>
+#include <ranges>
 #include <set>
 
+#include "bench/text.h"
 #include "core/error.h"
 
 namespace tarn {
@@ -37,23 +39,6 @@ constexpr MethodRow METHODS[] = {
     {"restir-unbiased", "ReSTIR, preset unbiased: rays in all MIS weights", "preset=unbiased", "candidates",
      RESTIR_WARM_UP_FRAMES},
 };
-
-std::vector<std::string> split(const std::string& text, char separator) {
-    std::vector<std::string> parts;
-    std::size_t begin = 0;
-    for (std::size_t end; (end = text.find(separator, begin)) != std::string::npos; begin = end + 1) {
-        parts.push_back(text.substr(begin, end - begin));
-    }
-    parts.push_back(text.substr(begin));
-    return parts;
-}
-
-template <class Range, class Name>
-std::string join_names(const Range& range, const Name& name) {
-    std::string list;
-    for (const auto& item : range) list += (list.empty() ? "" : ", ") + std::string(name(item));
-    return list;
-}
 
 // Applies "setting=value" or "preset=name" and returns what stands before the sign.
 std::string apply_setting(RenderSettings& settings, const std::string& text, const std::string& method) {
@@ -98,7 +83,7 @@ const Setting& find_setting(const std::string& name) {
         std::find_if(table.begin(), table.end(), [&](const Setting& s) { return s.name == name; });
     if (setting != table.end()) return *setting;
     throw Error("'{}' is no setting; there are: {}", name,
-                join_names(table, [](const Setting& s) { return s.name; }));
+                fmt::join(table | std::views::transform(&Setting::name), ", "));
 }
 
 Method parse_method(const std::string& text) {
@@ -109,7 +94,7 @@ Method parse_method(const std::string& text) {
         std::find_if(table.begin(), table.end(), [&](const Method& m) { return m.label == name; });
     if (row == table.end()) {
         throw Error("'{}' is no method; there are: {}", name,
-                    join_names(table, [](const Method& m) { return m.label; }));
+                    fmt::join(table | std::views::transform(&Method::label), ", "));
     }
     Method method = *row;
     method.label = text;

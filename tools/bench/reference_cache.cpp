@@ -1,7 +1,6 @@
 #include "bench/reference_cache.h"
 
 #include <cstdlib>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 

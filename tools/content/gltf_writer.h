@@ -2,12 +2,10 @@
 // file.
 #pragma once
 
-#include <array>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "content/shapes.h"

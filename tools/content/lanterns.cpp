@@ -1,6 +1,5 @@
 // Lanterns of four kinds: in the arcades, on strings across the court, in garlands below the cornice, and
 // adrift.
-#include <cmath>
 
 #include "content/court.h"
 

@@ -7,6 +7,7 @@
 #include "content/portable_math.h"
 #include "content/scenes.h"
 #include "core/error.h"
+#include "shared/math/colour.h"
 
 namespace tarn::content {
 namespace {
@@ -24,10 +25,6 @@ constexpr glm::vec3 HUES[] = {{1.0f, 0.75f, 0.45f}, {1.0f, 0.55f, 0.2f}, {1.0f, 
                               {0.3f, 1.0f, 0.9f},   {0.8f, 1.0f, 0.3f},  {1.0f, 1.0f, 1.0f}};
 constexpr int HUE_COUNT = std::size(HUES);
 constexpr double TINTED_SATURATION = 0.5;
-
-float luminance(const glm::vec3& c) {
-    return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
-}
 
 struct Box {
     glm::vec3 lower, upper;

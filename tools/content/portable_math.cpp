@@ -71,9 +71,6 @@ glm::mat4 turn_x(double angle_rad) {
 glm::mat4 turn_y(double angle_rad) {
     return turn({0, 1, 0}, angle_rad);
 }
-glm::mat4 turn_z(double angle_rad) {
-    return turn({0, 0, 1}, angle_rad);
-}
 
 glm::mat4 stretch(const glm::vec3& factors) {
     glm::mat4 matrix(1.0f);

@@ -22,7 +22,6 @@ glm::quat rotate_about(const glm::vec3& axis, double angle_rad);
 glm::mat4 move_by(const glm::vec3& offset);
 glm::mat4 turn_x(double angle_rad);
 glm::mat4 turn_y(double angle_rad);
-glm::mat4 turn_z(double angle_rad);
 glm::mat4 stretch(const glm::vec3& factors);
 
 // Counter-based random numbers: a pure function of (seed, index, dimension).

@@ -2,7 +2,6 @@
 // counter-clockwise seen from outside. Texture coordinates are in metres unless said otherwise.
 #pragma once
 
-#include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
 

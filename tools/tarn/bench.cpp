@@ -14,9 +14,9 @@
 #include "bench/results.h"
 #include "commands.h"
 #include "core/error.h"
-#include "core/interrupt.h"
 #include "direct_truth.h"
 #include "gl/shader_source.h"
+#include "interrupt.h"
 #include "renderer_source.h"
 #include "session.h"
 

@@ -2,7 +2,7 @@
 
 #include "bench/reference_cache.h"
 #include "core/error.h"
-#include "core/interrupt.h"
+#include "interrupt.h"
 #include "silhouettes.h"
 #include "world/light_tree.h"
 

@@ -6,10 +6,10 @@
 #include "bench/file_names.h"
 #include "bench/sequence_json.h"
 #include "core/display.h"
-#include "core/interrupt.h"
 #include "core/log.h"
 #include "direct_truth.h"
 #include "image_io/image_io.h"
+#include "interrupt.h"
 #include "silhouettes.h"
 
 namespace tarn {

@@ -5,12 +5,11 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "commands.h"
 #include "core/error.h"
-#include "core/interrupt.h"
 #include "image_io/image_io.h"
+#include "interrupt.h"
 #include "output/output_files.h"
 #include "scene_options.h"
 #include "world/light_tree.h"

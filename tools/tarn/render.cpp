@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/log.h"
 #include "image_io/image_io.h"
+#include "metrics/frame_mean.h"
 #include "session.h"
 
 namespace tarn {
@@ -30,25 +31,6 @@ void check_output(const std::string& file) {
     }
     check_output_folder(file);
 }
-
-// Sum of frames in double, so that a thousand of them lose nothing.
-class Accumulator {
-  public:
-    void add(const Image& image) {
-        if (sums_.empty()) sums_.assign(image.values.size(), 0.0);
-        for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += image.values[i];
-        ++count_;
-    }
-    Image mean(int width, int height) const {
-        Image image(width, height, 3);
-        for (std::size_t i = 0; i < sums_.size(); ++i) image.values[i] = float(sums_[i] / count_);
-        return image;
-    }
-
-  private:
-    std::vector<double> sums_;
-    int count_ = 0;
-};
 
 void write_picture(const std::string& file, const Image& radiance, const std::optional<float>& exposure_ev) {
     if (is_exr(file)) {
@@ -77,7 +59,7 @@ void run_render(const RenderCommand& command) {
     input.settings = command.options.settings;
 
     RunTotals totals;
-    Accumulator accumulator;
+    FrameMean mean;
     Image radiance;
     Progress progress("rendering", std::uint64_t(command.frames));
     for (int frame = 0; frame < command.frames; ++frame) {
@@ -87,10 +69,10 @@ void run_render(const RenderCommand& command) {
         totals.add(output);
         const bool last = frame + 1 == command.frames;
         if (command.accumulate || last) radiance = renderer.read_radiance(output.radiance);
-        if (command.accumulate) accumulator.add(radiance);
+        if (command.accumulate) mean.add(radiance);
         progress.update(std::uint64_t(frame) + 1);
     }
-    if (command.accumulate) radiance = accumulator.mean(renderer.width_px(), renderer.height_px());
+    if (command.accumulate) radiance = mean.mean();
     write_picture(command.out, radiance, command.options.exposure_ev);
     if (!command.options.json_file.empty()) {
         write_json(command.options.json_file, make_report(command.options, session, totals));

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "core/resize.h"
+#include "bench/resize.h"
 
 namespace tarn {
 

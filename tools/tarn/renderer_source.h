@@ -5,7 +5,6 @@
 #include <map>
 #include <memory>
 #include <utility>
-#include <vector>
 
 #include "bench/sequence.h"
 #include "renderer/renderer.h"

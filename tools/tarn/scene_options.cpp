@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "bench/text.h"
 #include "core/error.h"
 #include "image_io/image_io.h"
 #include "scene/gltf_import.h"
@@ -21,16 +22,6 @@ std::optional<Number> parse_number(const std::string& text) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
     return value;
-}
-
-std::vector<std::string> split(const std::string& text, char separator) {
-    std::vector<std::string> parts;
-    std::size_t begin = 0;
-    for (std::size_t end; (end = text.find(separator, begin)) != std::string::npos; begin = end + 1) {
-        parts.push_back(text.substr(begin, end - begin));
-    }
-    parts.push_back(text.substr(begin));
-    return parts;
 }
 
 void parse_size(const std::string& text, SceneOptions& options) {

@@ -7,8 +7,8 @@
 
 #include "core/display.h"
 #include "core/error.h"
-#include "core/interrupt.h"
 #include "image_io/image_io.h"
+#include "interrupt.h"
 
 namespace tarn {
 namespace {
@@ -68,6 +68,15 @@ std::filesystem::path find_new_name() {
         const std::filesystem::path file = folder / fmt::format("screenshot_{:04}.png", i);
         if (!std::filesystem::exists(file)) return file;
     }
+}
+
+// Rays of all kinds over the time of the passes that trace them.
+double count_rays_per_s(const FrameOutput& output, const FrameTimings& timings) {
+    double ms = 0.0;
+    for (const PassTiming& pass : timings.passes) {
+        if (pass.is_on_cpu && pass.name != "lights/tree") ms += pass.ms;
+    }
+    return ms > 0.0 ? double(output.shadow_rays.traced + output.closest_rays) / (ms * 1e-3) : 0.0;
 }
 
 }  // namespace
@@ -262,12 +271,7 @@ void Viewer::collect_facts(const FrameOutput& output, double display_ms, double 
     facts_.width_px = renderer_->width_px();
     facts_.height_px = renderer_->height_px();
     facts_.shadow_rays = output.shadow_rays.traced;
-    facts_.shadow_rays_per_s = 0.0;
-    for (const PassTiming& pass : facts_.timings.passes) {
-        if (pass.name == "visibility" && pass.ms > 0.0) {
-            facts_.shadow_rays_per_s = double(facts_.shadow_rays) / (pass.ms * 1e-3);
-        }
-    }
+    facts_.rays_per_s = count_rays_per_s(output, facts_.timings);
     facts_.triangles_drawn = output.raster.triangles_drawn;
     facts_.triangles_total = output.raster.triangles_total;
     facts_.counters = renderer_->read_counters();

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "shared/dialect.h"
+#include "shared/math/colour.h"
 #include "shared/math/warp.h"
 
 SHARED_BEGIN

@@ -13,9 +13,9 @@
 #include "bench/compare_results.h"
 #include "bench/results.h"
 #include "core/error.h"
-#include "core/interrupt.h"
 #include "core/log.h"
 #include "direct_truth.h"
+#include "interrupt.h"
 #include "renderer_source.h"
 #include "studies/study.h"
 

@@ -3,8 +3,8 @@
 // the change are in the picture, as its mean over seeds shows it, and frames until its noise has settled.
 #include "bench/method.h"
 #include "core/error.h"
-#include "core/interrupt.h"
 #include "core/log.h"
+#include "interrupt.h"
 #include "metrics/step_response.h"
 #include "renderer_source.h"
 #include "studies/study.h"

@@ -6,8 +6,8 @@
 
 #include "content/scenes.h"
 #include "core/error.h"
-#include "core/interrupt.h"
 #include "core/log.h"
+#include "interrupt.h"
 #include "shared/math/random.h"
 #include "studies/study.h"
 

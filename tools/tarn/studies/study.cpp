@@ -6,7 +6,7 @@
 
 #include "commands.h"
 #include "core/error.h"
-#include "core/interrupt.h"
+#include "interrupt.h"
 
 namespace tarn {
 

@@ -1,4 +1,4 @@
-#include "core/resize.h"
+#include "bench/resize.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/interrupt.h"
+#include "interrupt.h"
 
 #include <csignal>
 

@@ -1,5 +1,5 @@
 // Tile sums of images, their moments over seeds, and the pooled, skewness-corrected Welch test of two sides.
-#include "core/tile_test.h"
+#include "support/tile_test.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,13 +8,15 @@
 
 #include "core/error.h"
 #include "core/statistics.h"
+#include "shared/math/colour.h"
+#include "support/goodness_of_fit.h"
 
 namespace tarn {
 namespace {
 
 constexpr int CHANNELS = 4;  // R, G, B, luminance
 constexpr int LUMINANCE_CHANNEL = 3;
-constexpr double LUMINANCE[3] = {0.2126, 0.7152, 0.0722};
+constexpr double LUMINANCE[3] = {LUMINANCE_WEIGHTS};
 // Skewness of a tile's mean above which Hall's transformation is no longer trusted: about 1 / skewness^2 rare
 // events.
 constexpr double MAX_SKEWNESS = 0.25;
