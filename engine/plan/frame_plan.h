@@ -1,4 +1,5 @@
-// What this scene needs: the shader variants and passes that run, and why. What a scene lacks costs nothing.
+// What this scene needs: the shader variants and passes that run, and why. What a scene does not have costs
+// nothing.
 #pragma once
 
 #include <string>

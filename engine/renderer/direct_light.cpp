@@ -111,8 +111,8 @@ void DirectLight::record_lane(const DirectFrame& direct, std::size_t lane, const
     shade_.record(direct, chosen, seen, first);
 }
 
-// Whether the lane holds what the last frame found by this frame's rules. Other methods may have run since;
-// and the tracer may have forgotten the geometry that the weights would ask for.
+// Whether the lane's history was written by the last frame, and by this frame's rules: other methods may have
+// run since, and the tracer may have forgotten the geometry that the weights would ask for.
 bool DirectLight::has_past(const DirectFrame& direct, const Lane& lane) {
     if (!direct.last_frame || lane.frame != direct.last_frame->key.frame) return false;
     if (lane.meaning != Meaning(direct)) return false;

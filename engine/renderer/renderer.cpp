@@ -60,7 +60,7 @@ void Renderer::update() {
     update_plan();
 }
 
-// A light may have come or gone, a thing have begun to move, and with it what the shaders need.
+// When a light appears or an object begins to move, the shaders may need other variants.
 void Renderer::update_plan() {
     const PlanHistory history{world_.is_animated || gpu_scene_.has_moved(),
                               world_.is_animated || gpu_scene_.have_lights_changed()};

@@ -108,19 +108,19 @@ const std::vector<Setting>& setting_table() {
         where(&S::takes_samples,
               number("samples", "", "Samples a pixel and frame, each with a ray; reuse keeps one",
                      &S::samples, 1, 256)),
-        where(&S::uses_restir, choose("reuse", "restir: whose samples are reused", &S::reuse,
+        where(&S::uses_restir, choose("reuse", "restir: which samples are reused", &S::reuse,
                                       {"none", "temporal", "spatial", "spatiotemporal"})),
         where(&S::reuses_space, number("spatial-iterations", "", "restir: steps of reuse over neighbours",
                                        &S::spatial_iterations, 1, 4)),
         where(&S::reuses_space, number("neighbours", "", "restir: neighbours a step", &S::neighbours, 1, 9)),
         where(&S::reuses_space,
-              number("radius", "px", "restir: distance of neighbours at most", &S::radius_px, 1, 100)),
-        where(
-            &S::reuses_both,
-            toggle("feedback",
-                   "restir: the next frame finds what neighbours gave, instead of what time alone gave: more "
-                   "candidates behind a sample, but neighbours come to share it",
-                   &S::feedback)),
+              number("radius", "px", "restir: greatest distance of a neighbour", &S::radius_px, 1, 100)),
+        where(&S::reuses_both,
+              toggle("feedback",
+                     "restir: the next frame reuses the result of spatial reuse, instead of that of temporal "
+                     "reuse: "
+                     "a sample has seen more candidates, but more pixels end up with the same one",
+                     &S::feedback)),
         where(&S::reuses, choose("mis",
                                  "restir: weights of reused samples: 1/M, 1/Z, generalized balance "
                                  "heuristic, pairwise defensive",
@@ -144,19 +144,18 @@ const std::vector<Setting>& setting_table() {
                    "restir: what lights a pixel: its chosen sample, or all of the last step by their weights",
                    &S::shade, {"chosen", "all"})),
         where(&S::reuses, toggle("discard-occluded",
-                                 "restir: drop fresh samples that are occluded before anyone reuses them",
+                                 "restir: drop fresh samples that are occluded before they are reused",
                                  &S::discard_occluded)),
         toggle("per-channel",
                "A sample for each of red, green and blue: no colour noise or leak, three times the cost",
                &S::per_channel),
         where(&S::reuses_time,
               number("confidence-cap", "x",
-                     "restir: confidence of the past at most, as a multiple of the fresh sample's",
+                     "restir: confidence of the history at most, as a multiple of the fresh sample's",
                      &S::confidence_cap, 1, 1000)),
         where(&S::reuses_time, number("motion-cap", "x",
-                                      "restir: the same in frames in which camera, lights or geometry moved: "
-                                      "a long history is worth "
-                                      "less there",
+                                      "restir: the same cap in frames in which camera, lights or geometry "
+                                      "moved: a long history adds noise there",
                                       &S::motion_cap, 1, 1000)),
         where(&S::reuses_time, number("age-cap", "frames", "restir: drop samples older than this; 0: never",
                                       &S::age_cap, 0, 1000)),
@@ -182,7 +181,8 @@ const std::vector<Setting>& setting_table() {
 
 namespace {
 
-// Near neighbours are of one mind about a sample. Without feedback less of their bias comes back each frame.
+// Near neighbours mostly see the same lights, so reuse adds little bias. Without feedback less of it returns
+// in the next frame.
 constexpr double PRESET_RADIUS_PX = 16.0;
 
 RenderSettings fast_settings() {
@@ -256,7 +256,7 @@ const std::vector<Preset>& preset_table() {
          "balanced, with lights drawn by the light tree and a sample for each colour: no colour noise, twice "
          "the time",
          fine_settings(), 0.08},
-        {"unbiased", "rays in all MIS weights, those of the last frame past the last frame's geometry",
+        {"unbiased", "rays in all MIS weights; those of the last frame meet the last frame's geometry",
          unbiased_settings(), 0.0},
         {"student", "32 random lights, 5 neighbours in 10 px, 1/M weights: the simplest form, for comparison",
          student_settings(), 0.2},

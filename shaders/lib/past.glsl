@@ -83,8 +83,8 @@ float load_previous_light_error(LightSample drawn) {
     return light_error(load_previous_light(drawn.light));
 }
 
-// A sample of this frame as the last one would have known it, and back; no sample where the light was not, or is no
-// more.
+// A sample of this frame in terms of the last one, and the reverse; no sample where the light does not exist in the
+// other frame.
 LightSample move_to_past(LightSample drawn) {
     if (is_in_light_table(drawn)) drawn.light = remap_light(drawn.light, true);
     return drawn;

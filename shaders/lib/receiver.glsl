@@ -1,4 +1,4 @@
-// A lit point of the picture, and what light samples are worth there: the target function of all resampling.
+// A lit point of the picture, and the target function of all resampling there.
 //
 // After lib/scene_buffers.glsl, lib/frame.glsl and lib/gbuffer.glsl.
 #include "shared/math/shadow_ray.h"

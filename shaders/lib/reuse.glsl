@@ -1,9 +1,9 @@
 // What the reuse of samples, over time and over neighbours, has in common: settings, reservoirs in and out, the rays
 // that MIS asks for and their answers.
 //
-// A step may run twice: with TARN_WRITE_RAYS it writes the rays that it needs, then, these traced, it merges. Both
-// draw the same random numbers and so speak of the same samples. Pictures are worked off in bands of rows, so that the
-// rays of a band fit their buffer.
+// A step may run twice: with TARN_WRITE_RAYS it writes the rays that it needs; once they are traced, it
+// runs again and merges. Both runs draw the same random numbers, and so choose the same samples. A picture is processed
+// in bands of rows, so that the rays of a band fit their buffer.
 #include "shared/math/mis.h"
 #include "shared/math/reservoir.h"
 

@@ -31,7 +31,7 @@ class DirectCandidatesPass {
     RowBuffer rays_;
 };
 
-// Tells fresh samples whether they are seen, and drops those that are not where the settings ask for it.
+// Stores in fresh samples whether they are visible, and drops occluded ones where the settings ask for it.
 class InitialVisibilityPass {
   public:
     InitialVisibilityPass(ProgramLibrary& programs, int width_px, int height_px);

@@ -24,7 +24,7 @@ struct DirectFrame {
     const Buffer& counters;
     std::vector<std::string> defines;  // what the scene needs (plan/frame_plan.h)
     CoverageKey shadow_key;
-    std::optional<PreviousRays> last_frame;  // how its rays were answered; none: this frame has no past
+    std::optional<PreviousRays> last_frame;  // how its rays were answered; none: this frame has no history
     bool has_moved = false;                  // camera, lights or geometry, since the last frame
     std::uint32_t sample = 0;                // which of the frame's samples of each pixel
 };

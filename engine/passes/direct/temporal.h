@@ -10,8 +10,8 @@ class TemporalPass {
   public:
     explicit TemporalPass(ReuseStep& step) : step_(step) {}
 
-    // Merges `io.in` with the last frame's `past` into `io.out`; without `has_past` that holds nothing of
-    // use, and `io.in` goes on alone.
+    // Merges `io.in` with the last frame's `past` into `io.out`; without `has_past` it holds nothing
+    // useful, and `io.in` passes through alone.
     void record(const DirectFrame& direct, const ReuseStep::Io& io, const Past<RowBuffer>& past,
                 bool has_past);
 

@@ -1,8 +1,8 @@
 // Reuse over space: this pixel's sample and those of some neighbours become one.
 //
 // Technique 0 is the pixel itself, 1 .. neighbour_count are pixels drawn at random within a radius; those that are
-// outside of the picture or show another surface are left out and are no techniques. How the samples are weighed, TARN_MIS
-// says (shared/math/mis.h).
+// outside of the picture or show another surface are rejected and are no techniques. TARN_MIS chooses the MIS weights
+// (shared/math/mis.h).
 #include "lib/scene_buffers.glsl"
 #include "lib/frame.glsl"
 #include "lib/gbuffer.glsl"
@@ -60,8 +60,8 @@ bool can_join(Receiver here, ivec2 pixel, ivec2 neighbour) {
     vec4 position = load_layer(neighbour, LAYER_POSITION);
     Look look = look_of_layers(position, load_layer(neighbour, LAYER_NORMALS), load_layer(neighbour, LAYER_DIFFUSE));
     Look own = look_of(here.point);
-    // 1/Z gives all who could have made a sample the same share of it, however rarely they do: a mirror's energy would
-    // hang on samples that no run meets. Balance and pairwise know how likely each is.
+    // 1/Z gives the same weight to every technique that can draw the sample, however rarely it does: a mirror's energy
+    // would depend on samples that hardly any run draws. Balance and pairwise know how likely each technique is.
 #ifndef TARN_PLANT_COUNT_MIRRORS
     if (MIS == MIS_COUNT && is_mirror_like(look, own)) return false;
 #endif

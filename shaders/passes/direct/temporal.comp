@@ -52,8 +52,8 @@ bool is_inside(ivec2 pixel) {
     return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, ivec2(frame_size.xy)));
 }
 
-// How well the last frame's surface at `pixel` stands for `expected`: the cosine between their normals; below 0 where it
-// does not at all.
+// How similar the last frame's surface at `pixel` is to `expected`: the cosine between their normals; below 0 where it is
+// another surface.
 float past_likeness(Look expected, ivec2 pixel) {
     vec4 position = texelFetch(previous_layers, ivec3(pixel, LAYER_POSITION), 0);
     Look found = look_of_layers(position, texelFetch(previous_layers, ivec3(pixel, LAYER_NORMALS), 0),
@@ -121,7 +121,7 @@ Pair make_pair(Receiver here, Reservoir fresh, ivec2 there_pixel) {
     LightSample past_there = p.past.chosen;
     p.past.chosen = move_to_present(past_there);
     p.past_jacobian = shift_jacobian(p.past.chosen, past_there);
-    // A light that is no more: the sample goes, what the history knows stays.
+    // The light is gone: the sample is dropped, the history's confidence stays.
     if (p.past.chosen.light == INVALID_INDEX) p.past.contribution_weight = 0.0f;
     p.fresh_there = move_to_past(fresh.chosen);
     p.fresh_jacobian = shift_jacobian(fresh.chosen, p.fresh_there);
