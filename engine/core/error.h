@@ -1,4 +1,4 @@
-// How Tarn fails: Error for what the world gets wrong, TARN_ASSERT for what a programmer gets wrong.
+// How Tarn fails: Error for bad input and failing drivers, TARN_ASSERT for mistakes of programmers.
 #pragma once
 
 #include <fmt/format.h>
@@ -9,9 +9,9 @@
 
 namespace tarn {
 
-// The world disappoints: a file, a scene, a shader, a driver. The message is one line that names the thing,
-// the value and the limit: Error("light_count is {}, the table holds {}", count, limit). Caught once, in
-// main.
+// Something outside the program is wrong: a file, a scene, a shader, a driver. The message is one line that
+// names the thing, the value and the limit: Error("light_count is {}, the table holds {}", count, limit).
+// Caught once, in main.
 class Error : public std::runtime_error {
   public:
     template <class... Args>

@@ -1,4 +1,4 @@
-// What every tracer asks of a ray and of a hit, so that Embree and the oracle cannot differ in it.
+// Checks of rays and hits that all tracers share, so that Embree and the oracle cannot differ in them.
 #pragma once
 
 #include "rays/ray_tracer.h"

@@ -1,5 +1,5 @@
-// The truth that everything else is measured against: a path tracer over the same world, rays and material
-// functions, without resampling and without history.
+// The reference that everything else is measured against: a path tracer over the same world, rays and
+// material functions, without resampling and without history.
 #pragma once
 
 #include <atomic>

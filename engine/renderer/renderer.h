@@ -50,7 +50,7 @@ class Renderer {
     // Uploads what moved; call after update_world and the tracer's update.
     void update();
 
-    // Looks back to the last frame where this one follows it (`input.frame` is one more), else starts anew.
+    // Reuses the last frame if this one follows it (`input.frame` is one more), else starts anew.
     FrameOutput render(const FrameInput& input);
 
     // Forgets the last frame, as after a cut.

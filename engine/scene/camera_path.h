@@ -1,5 +1,5 @@
-// A flythrough: camera keys in time, joined by a smooth curve, and nodes of the scene that go their own ways
-// meanwhile.
+// A flythrough: camera keys in time, joined by a smooth curve, and nodes of the scene that move along
+// paths of their own.
 #pragma once
 
 #include <filesystem>
@@ -24,7 +24,7 @@ struct NodeKey {
     std::optional<glm::dvec3> rotation_deg;  // about x, then y, then z
 };
 
-// The way of one node: a lamp, a light, an object and what hangs on it.
+// The path of one node, such as a light or an object, and of all its children.
 struct NodeTrack {
     std::string node;           // its name
     std::vector<NodeKey> keys;  // at least one, times strictly increasing

@@ -36,7 +36,7 @@ Json parse_json(const std::string& text) {
     }
 }
 
-// Integers written as 3.0 become 3, which tinygltf insists on; extras go, for nobody reads them.
+// Integers written as 3.0 become 3, which tinygltf insists on; extras are dropped, since nothing reads them.
 void normalize_json(Json& value) {
     if (value.is_number_float()) {
         const double number = value.get<double>();

@@ -1,4 +1,4 @@
-// The node tree and what hangs on it.
+// The node tree, and what its nodes carry: meshes, skins, cameras, lights.
 #include "scene/gltf_nodes.h"
 
 #include <algorithm>

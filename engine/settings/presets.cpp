@@ -7,7 +7,8 @@
 namespace tarn {
 namespace {
 
-// Near neighbours are of one mind about a sample. Without feedback less of their bias comes back each frame.
+// Near neighbours mostly see the same lights, so reuse adds little bias. Without feedback less of it returns
+// in the next frame.
 constexpr double PRESET_RADIUS_PX = 16.0;
 
 RenderSettings fast_settings() {
@@ -86,7 +87,7 @@ const std::vector<Preset>& preset_table() {
          "balanced, with lights drawn by the light tree and a sample for each colour: no colour noise, twice "
          "the time",
          fine_settings(), 0.08},
-        {"unbiased", "rays in all MIS weights, those of the last frame past the last frame's geometry",
+        {"unbiased", "rays in all MIS weights; those of the last frame meet the last frame's geometry",
          unbiased_settings(), 0.0},
         {"student", "32 random lights, 5 neighbours in 10 px, 1/M weights: the simplest form, for comparison",
          student_settings(), 0.2},

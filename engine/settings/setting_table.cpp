@@ -46,13 +46,12 @@ template <class Part>
 void add_temporal_rows(SettingRows<Part>& rows) {
     using S = ReuseSettings;
     rows.number("confidence-cap", "x",
-                "restir: confidence of the last frame's sample at most, as a multiple of the fresh sample's",
+                "restir: confidence of the history at most, as a multiple of the fresh sample's",
                 &S::confidence_cap, 1, 1000)
-        .number(
-            "motion-cap", "x",
-            "restir: the same in frames in which camera, lights or geometry moved: a long history is worth "
-            "less there",
-            &S::motion_cap, 1, 1000)
+        .number("motion-cap", "x",
+                "restir: the same cap in frames in which camera, lights or geometry moved: a long history "
+                "adds noise there",
+                &S::motion_cap, 1, 1000)
         .number("age-cap", "frames", "restir: drop samples older than this; 0: never", &S::age_cap, 0, 1000)
         .number(
             "boiling-filter", "x",
@@ -69,7 +68,7 @@ void add_spatial_rows(SettingRows<Part>& rows) {
     rows.number("spatial-iterations", "", "restir: steps of reuse over neighbours", &S::spatial_iterations, 1,
                 4)
         .number("neighbours", "", "restir: neighbours a step", &S::neighbours, 1, 9)
-        .number("radius", "px", "restir: distance of neighbours at most", &S::radius_px, 1, 100)
+        .number("radius", "px", "restir: greatest distance of a neighbour", &S::radius_px, 1, 100)
         .toggle("mirror",
                 "restir: neighbours outside of the picture are mirrored into it instead of left out",
                 &S::mirror);
@@ -87,10 +86,9 @@ void add_weight_rows(SettingRows<Part>& rows) {
             "restir: trace visibility in the weights, which makes 1/Z, balance and pairwise unbiased, also "
             "while things move",
             &S::mis_visibility)
-        .toggle(
-            "visibility-reuse",
-            "restir: drop fresh samples that are occluded before anyone reuses them (Bitterli et al. 2020)",
-            &S::visibility_reuse)
+        .toggle("visibility-reuse",
+                "restir: drop fresh samples that are occluded before they are reused (Bitterli et al. 2020)",
+                &S::visibility_reuse)
         .choose("final-visibility",
                 "restir: how the visibility of the sample that lights the pixel is known: traced at the end, "
                 "reused "
@@ -108,15 +106,15 @@ void add_reuse_rows(std::vector<Setting>& table, const std::string& prefix,
         return [=](const RenderSettings& s) { return (s.direct.*stage_resamples)() && holds(Part()(s)); };
     };
     rows.where(where([](const S&) { return true; }))
-        .choose("reuse", "restir: whose samples are reused", &S::reuse,
+        .choose("reuse", "restir: which samples are reused", &S::reuse,
                 {"none", "temporal", "spatial", "spatiotemporal"});
     rows.where(where([](const S& s) { return s.reuses_space(); }));
     add_spatial_rows(rows);
     rows.where(where([](const S& s) { return s.reuses_time() && s.reuses_space(); }))
         .toggle("feedback",
-                "restir: the next frame starts from the samples after reuse over neighbours, instead of from "
-                "those "
-                "after reuse over time: more candidates behind a sample, but neighbours come to share it",
+                "restir: the next frame reuses the result of spatial reuse, instead of that of temporal "
+                "reuse: a sample has "
+                "seen more candidates, but more pixels end up with the same one",
                 &S::feedback);
     rows.where(where([](const S& s) { return s.reuse != Reuse::NONE; }));
     add_weight_rows(rows);

@@ -1,4 +1,4 @@
-// Counters of what is dropped or clamped: silence is not health.
+// Counters of what is dropped or clamped, so that no loss goes unnoticed.
 #include "shared/interface/bindings.h"
 #include "shared/interface/frame_block.h"
 

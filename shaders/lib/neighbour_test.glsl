@@ -25,8 +25,8 @@ bool is_similar(Look expected, Look found, float depth) {
            abs(expected.alpha - found.alpha) <= MAX_ALPHA_DIFFERENCE;
 }
 
-// Whether either surface is a mirror to its neighbours: its lobe is narrower than the angle by which lights move from one
-// pixel to the next, so that what lights the one is next to impossible for the other to draw, and yet not impossible.
+// Whether either surface is nearly a mirror: its lobe is narrower than the angle between the directions to a light from
+// one pixel and from the next. Then a neighbour can draw this pixel's sample, but almost never does.
 bool is_mirror_like(Look a, Look b) {
     const float MAX_MIRROR_ALPHA = 0.01f;  // a roughness of 0.1
     return min(a.alpha, b.alpha) <= MAX_MIRROR_ALPHA;

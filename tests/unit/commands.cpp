@@ -1,5 +1,5 @@
-// The command line as a person meets it, as far as it needs no GL: help, wrong usage (status 2), a world that
-// disappoints (status 1 and one line), Ctrl-C.
+// The command line as a person meets it, as far as it needs no GL: help, wrong usage (status 2), files
+// and folders that fail (status 1 and one line), Ctrl-C.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -122,7 +122,7 @@ TEST(WrongUsage, EndsWithStatus2AndSaysWhatIsWrong) {
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-// ---- A world that disappoints -------------------------------------------------------------------
+// ---- Files and folders that fail -------------------------------------------------------------------
 
 // Status 1, and one line on stderr that holds `word`.
 void expect_one_line(const Arguments& arguments, const std::string& word) {

@@ -69,7 +69,7 @@ bool share_random_numbers(const Json& before, const Json& after, const CellPair&
                pair.after->at("errors").at("mse").at("per_seed").size();
 }
 
-// A budget that bought other frames or another dial tells of the machine's speed that day, not of the method.
+// A budget that gave other frames or another dial reflects the machine's speed that day, not the method.
 bool has_same_effort(const CellPair& pair) {
     return pair.after->at("budget_ms").is_null() ||
            (pair.before->at("frames") == pair.after->at("frames") &&
@@ -90,7 +90,7 @@ void compare_errors(const CellPair& pair, bool is_paired, std::vector<Finding>& 
     }
 }
 
-// Counts come without noise: any more is told.
+// Counts have no noise: any increase is reported.
 void compare_counts(const CellPair& pair, std::vector<Finding>& findings) {
     for (const auto& [name, count] : pair.after->at("counts").items()) {
         const double before = pair.before->at("counts").value(name, 0.0), after = count.get<double>();

@@ -4,11 +4,11 @@
 // tested seed by seed (paired); others as independent samples. What a budget paid for is compared only where
 // both runs could pay for the same.
 //
-// Times: a machine is never as fast as it was. So a pass is held against the other passes of its method,
-// which ran beside it: each seed's slowness is taken off, then the factor that most of them share, and what
-// stands out from how all passes scatter is told. The frame of a method is held against those of all methods
-// in the same way. What slows most passes of all methods at once looks like another machine: the summary
-// tells that factor.
+// Times: the speed of a machine varies between runs. So a pass is compared with the other passes of its
+// method, which ran beside it: each seed's slowness is taken off, then the factor that most passes share.
+// What stands out from the scatter of all passes is reported. The frame of a method is compared with those of
+// all methods in the same way. What slows most passes of all methods at once looks like another machine: the
+// summary states that factor.
 //
 // All tests of a comparison together raise a false alarm in one of a hundred comparisons (Sidak).
 #pragma once
@@ -18,13 +18,13 @@
 
 namespace tarn {
 
-// Changes below these are not told, however certain: shares of the value before.
+// Changes below these are not reported, however certain: shares of the value before.
 inline constexpr double SMALLEST_TIME_CHANGE = 0.05;
 inline constexpr double SMALLEST_ERROR_CHANGE = 0.001;
 
 // Returns {"old", "machine_factor", "machine_scatter", "summary", "findings": [{"what", "before", "after",
 // "ratio", "verdict", "p_value"}]}, which the page shows as "comparison". `old_name` stands for the old run.
-// What only one of the two runs has is told in the summary and not compared.
+// What only one of the two runs has is named in the summary and not compared.
 nlohmann::ordered_json compare_results(const nlohmann::ordered_json& before,
                                        const nlohmann::ordered_json& after, const std::string& old_name);
 

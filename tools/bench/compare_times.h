@@ -1,5 +1,6 @@
-// Times of two runs against each other. A machine is never as fast as it was, and no run's own seeds know by
-// how much: what most passes share is taken for the machine, what stands out from the rest for a change.
+// Times of two runs against each other. The speed of a machine varies between runs, and the seeds of one run
+// do not show by how much: what most passes share counts as the machine, what stands out from that as a
+// change.
 #pragma once
 
 #include <vector>
@@ -8,7 +9,7 @@
 
 namespace tarn {
 
-// How the two runs differ where nothing but the machine does.
+// How the two runs differ if only the machine does.
 struct MachineDrift {
     double factor = 1.0;        // by which frames took longer, the median over all cells
     double pass_scatter = 0.0;  // standard deviation of single passes around their cell's own factor, a share

@@ -1,4 +1,4 @@
-// What the parts of a comparison of two results.json hand to each other: pairs of cells, and findings.
+// What the parts of a comparison of two results.json share: pairs of cells, and findings.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -45,7 +45,7 @@ function makeSceneSection(scene, settings, number) {
     element("p", {class: "quiet"}, describeScene(scene, settings)), makeErrorTable(scene),
     element("details", {}, element("summary", {}, "More errors, correlation of neighbours, rays"), makeDetailTable(scene)));
   const charts = element("div", {class: "charts"},
-    makeMetricFigure("Convergence: mean of 1, 2, 4, … frames; what goes flat is biased, or its frames hang together.",
+    makeMetricFigure("Convergence: mean of 1, 2, 4, … frames. A curve that goes flat: bias, or frames that are correlated.",
       ["rel_mse", "rel_mse_trimmed", "mse"], (metric) => makeConvergence(scene, metric)),
     makeMetricFigure("Error at equal time.", ["rel_mse", "rel_mse_trimmed", "flip_ldr", "mape", "mse"],
       (metric) => makeErrorAgainstTime(scene, metric)),
@@ -54,7 +54,7 @@ function makeSceneSection(scene, settings, number) {
     element("h3", {}, "relMSE at equal time, over the best method's"), makeEqualTimeTable(scene),
     element("h3", {}, `Time to the error of ${scene.equal_error.baseline}`), makeEqualErrorTable(scene),
     element("h3", {}, "Slope of log MSE over log time"),
-    element("p", {class: "quiet"}, "−1 where all error is independent noise; nearer to 0 where bias or correlation in time stays."),
+    element("p", {class: "quiet"}, "−1: all error is independent noise. Closer to 0: bias, or noise that is correlated in time."),
     makeSlopeTable(scene), element("h3", {}, "Pictures"));
   const pictures = [findPicture(number, scene.reference.pictures, "reference")];
   for (const method of scene.methods) {
@@ -83,7 +83,7 @@ function makeFlightCharts(flight) {
   if (flight.measured.length > 0) {
     charts.append(makeMetricFigure("Error of single frames.", ["rel_mse", "rel_mse_trimmed", "flip_ldr", "mape"],
       (metric) => makeFrameLines(errorLines(metric), METRIC_NAMES[metric], true)),
-      makeFigure("Flicker: change of a frame while nothing moves, over the mean.", () =>
+      makeFigure("Flicker: change from frame to frame while nothing moves, relative to the mean.", () =>
         makeFrameLines(errorLines("flicker"), "flicker", false)));
   }
   charts.append(makeFigure("Time of each pass.", () => makePassBars(flight.methods.map((method) => ({label: method.label,

@@ -260,16 +260,18 @@ void add_bench_command(CLI::App& app) {
     sub->add_option("--frames", command->frames, "Frames of the convergence curves, a power of two")
         ->check(CLI::Range(2, MAX_FRAMES))
         ->capture_default_str();
-    sub->add_option("--warm-up", command->warm_up_frames,
-                    "Frames before those that count, for methods with a past; -1: as many as fill it")
+    sub->add_option(
+           "--warm-up", command->warm_up_frames,
+           "Frames that fill the history of methods that have one and do not count; -1: as many as needed")
         ->check(CLI::Range(-1, MAX_FRAMES))
         ->capture_default_str();
     sub->add_option(
            "--walk", command->walk_m_per_s,
-           "The camera walks to its right at this speed, m/s at 60 frames a second, and arrives with the "
-           "one frame that counts")
+           "The camera moves to its right at this speed, m/s at 60 frames a second; only the frame after the "
+           "warm-up counts")
         ->capture_default_str();
-    sub->add_option("--turn", command->turn_deg_per_s, "It turns left at this speed, degrees a second")
+    sub->add_option("--turn", command->turn_deg_per_s,
+                    "The camera turns left at this speed, degrees a second")
         ->capture_default_str();
     sub->add_option("--reference-spp", command->reference_spp, "Samples a pixel of the reference")
         ->check(CLI::Range(2, 1000000))
@@ -278,7 +280,7 @@ void add_bench_command(CLI::App& app) {
         ->capture_default_str();
     sub->add_option(
         "--compare", command->compare,
-        "results.json of an earlier run: say what got faster, slower, better, worse beyond the noise");
+        "results.json of an earlier run: tell what became faster, slower, better or worse beyond the noise");
     sub->callback([command] {
         check_frames(*command);
         run_bench(*command);

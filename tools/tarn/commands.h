@@ -5,8 +5,8 @@
 
 namespace tarn {
 
-// Each adds its subcommand with options and a callback that runs it. A callback throws Error where the world
-// disappoints; main turns that into one line and exit status 1.
+// Each adds its subcommand with options and a callback that runs it. A callback throws Error where a file,
+// a driver or a disk fails; main turns that into one line and exit status 1.
 void add_info_command(CLI::App& app);
 void add_render_command(CLI::App& app);
 void add_reference_command(CLI::App& app);

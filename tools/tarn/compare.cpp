@@ -192,7 +192,7 @@ void run_compare(const CompareOptions& options) {
 void add_compare_command(CLI::App& app) {
     const auto options = std::make_shared<CompareOptions>();
     CLI::App* command = app.add_subcommand("compare", "Measure an image against a reference");
-    command->add_option("REFERENCE", options->reference, "The true picture: .exr, .hdr or .png")->required();
+    command->add_option("REFERENCE", options->reference, "The reference: .exr, .hdr or .png")->required();
     command->add_option("IMAGE", options->image, "The picture under test, of the same kind and size")
         ->required();
     command->add_option("--json", options->json, "Write the numbers to this JSON file");

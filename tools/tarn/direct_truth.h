@@ -1,5 +1,4 @@
-// The truth that methods of direct light are held against: path-traced, cached, pixels on silhouettes left
-// out.
+// The reference for methods of direct light: path-traced, cached, without the pixels on silhouettes.
 #pragma once
 
 #include "bench/sequence.h"
@@ -14,7 +13,7 @@ ReferenceSettings direct_truth_settings(int width_px, int height_px, const Camer
 // Renders it or finds it in the cache of the user. Brings the world's light tree up to date.
 ReferenceResult find_direct_reference(RenderSession& session, const ReferenceSettings& settings);
 
-// The same as what methods are held against. Throws Error when interrupted.
+// The same, ready for comparisons. Throws Error when interrupted.
 Truth find_direct_truth(RenderSession& session, const RenderOptions& options,
                         const ReferenceSettings& settings);
 

@@ -13,7 +13,7 @@
 
 namespace tarn {
 
-// The rays of one frame, in the order of their pixels: hands every question on to `tracer` and keeps it.
+// The rays of one frame, in the order of their pixels: passes each on to `tracer` and keeps it.
 class RayCapture : public RayTracer {
   public:
     explicit RayCapture(const RayTracer& tracer);

@@ -169,11 +169,11 @@ void run_floors(FloorsCommand& command) {
 
 void add_floors_command(CLI::App& app) {
     auto command = std::make_shared<FloorsCommand>();
-    CLI::App* sub =
-        app.add_subcommand("floors", "How far each pass is from the best that this machine can do");
+    CLI::App* sub = app.add_subcommand(
+        "floors", "Compare each pass with the least time that this machine could need for it");
     add_render_options(*sub, command->options);
     sub->add_option("--method", command->method,
-                    "A method as bench names it (default: what the settings say)");
+                    "A method by its name in bench (default: the one that the settings give)");
     sub->add_option("--frames", command->frames, "Frames to measure")
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();

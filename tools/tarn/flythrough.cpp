@@ -156,9 +156,8 @@ void add_flythrough_command(CLI::App& app) {
         "--path", command->path_file,
         "Path of the camera, of lights and objects, a JSON file (default: through lantern_court)");
     sub->add_option("--out", command->out, "Folder for the pictures and report.json")->capture_default_str();
-    sub->add_option(
-        "--methods", command->methods,
-        "Methods to fly one beside the other, as bench names them (default: what the settings say)");
+    sub->add_option("--methods", command->methods,
+                    "Methods to compare, by their names in bench (default: the one that the settings give)");
     sub->add_option("--frames", command->plan.frames, "Frames along the path")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();

@@ -1,4 +1,4 @@
-// Ctrl-C as a wish that long work looks at, so that it ends with whole files.
+// Ctrl-C as a flag that long work checks, so that it can stop early and leave complete files.
 #pragma once
 
 #include <atomic>

@@ -1,5 +1,5 @@
-// tarn: renders, measures and shows scenes. Exit status: 0; 1 with one line on stderr where the world
-// disappoints; 2 for wrong usage.
+// tarn: renders, measures and shows scenes. Exit status: 0; 1 with one line on stderr where a file,
+// a driver or a disk fails; 2 for wrong usage.
 #include <cstdio>
 #include <exception>
 

@@ -1,4 +1,4 @@
-// tarn reference: the path-traced truth of a scene, with the variance of every pixel.
+// tarn reference: path-traced radiance of a scene, with the variance of every pixel.
 #include "reference/reference.h"
 
 #include <fmt/format.h>
@@ -96,7 +96,7 @@ void run_reference_command(ReferenceOptions& options) {
 void add_reference_command(CLI::App& app) {
     auto options = std::make_shared<ReferenceOptions>();
     CLI::App* command = app.add_subcommand(
-        "reference", "Path-trace the truth: radiance and per-pixel variance of the mean, as OpenEXR");
+        "reference", "Path-trace the reference: radiance and the variance of each pixel's mean, as OpenEXR");
     add_scene_options(*command, options->scene);
     command->add_option("--out", options->out, "EXR file with channels R G B and variance.R .G .B")
         ->required()
@@ -120,17 +120,17 @@ void add_reference_command(CLI::App& app) {
         ->excludes(spp);
     effort->require_option(1);
     command
-        ->add_option("--bounces", options->settings.bounces, "Times that light is scattered; 1: direct light")
+        ->add_option("--bounces", options->settings.bounces, "How often light is scattered; 1: direct light")
         ->check(CLI::Range(0, MAX_BOUNCES))
         ->capture_default_str();
     command->add_flag("--direct-only", options->settings.direct_only,
-                      "Emission and direct light alone: what the renderer's direct passes compute");
-    command->add_flag(
-        "--light-tree", options->settings.light_tree,
-        "Draw lights by the light tree instead of by power: far less noise where they are many");
+                      "Only emission and direct light, as the renderer computes them");
+    command->add_flag("--light-tree", options->settings.light_tree,
+                      "Draw lights by the light tree instead of by power: far less noise with many lights");
     command
-        ->add_option("--pixel", options->pixel,
-                     "Where in a pixel: its centre as the rasterizer, or all of it (box)")
+        ->add_option(
+            "--pixel", options->pixel,
+            "Where rays pass through a pixel: its centre, as in the rasterizer, or anywhere in it (box)")
         ->check(CLI::IsMember({"centre", "box"}))
         ->capture_default_str();
     command->add_option("--json", options->json, "Write settings, counts and times to this file")

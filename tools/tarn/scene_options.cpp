@@ -88,7 +88,7 @@ CLI::Validator make_finite_range(double minimum, double maximum) {
 void add_scene_options(CLI::App& command, SceneOptions& options) {
     command
         .add_option("SCENE", options.scene,
-                    "A .gltf or .glb file, or the name of an own scene (lantern_court)")
+                    "A .gltf or .glb file, or the name of one of Tarn's scenes, such as lantern_court")
         ->required();
     command
         .add_option_function<std::string>(

@@ -1,4 +1,4 @@
-// A renderer with all that it stands on, set up from the command line's options.
+// A renderer with all that it needs, set up from the command line's options.
 #pragma once
 
 #include <memory>

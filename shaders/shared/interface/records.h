@@ -134,7 +134,7 @@ FN void pack_slot(SlotRecord r, OUT(uvec4) row0, OUT(uvec4) row1) {
     row1 = pack_row4(vec4(r.offset.x, r.offset.y, r.scale.x, r.scale.y));
 }
 
-// ---- Ray: what a shader asks of the ray tracer
+// ---- Ray: from a shader to the ray tracer
 // --------------------------------------------------------------------
 
 CONSTANT uint RAY_ROWS = 2u;

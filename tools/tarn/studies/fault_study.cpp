@@ -1,6 +1,6 @@
-// tarn study faults: does the benchmark see what it is there to see? Known faults are put into one of two
-// methods, the renderer being real, and the results held against those of a run without: each fault must show
-// in its own column, and nothing in the other method's.
+// tarn study faults: does the benchmark find what it is made to find? Known faults are put into one of two
+// methods of the real renderer, and the results are compared with those of a run without faults: each fault
+// must show in its own column, and nothing may show in the other method's.
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -278,7 +278,7 @@ void run(const FaultStudy& study) {
 void add_fault_study(CLI::App& app) {
     auto study = std::make_shared<FaultStudy>();
     CLI::App* sub =
-        app.add_subcommand("faults", "Whether the benchmark sees faults that are put into a method");
+        app.add_subcommand("faults", "Whether the benchmark finds faults that are put into a method");
     study->options.scene.scene = "cornell";
     study->options.scene.width = 320;
     study->options.scene.height = 180;

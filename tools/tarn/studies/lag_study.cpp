@@ -1,4 +1,4 @@
-// tarn study lag: how many frames late a method shows that the world has changed. Lights go out and on,
+// tarn study lag: how many frames late a method shows a change of the scene. Lights go out and on,
 // everything that is animated jumps, the camera cuts; and two numbers for each: frames until nine tenths of
 // the change are in the picture, as its mean over seeds shows it, and frames until its noise has settled.
 #include "bench/method.h"
@@ -163,21 +163,21 @@ void run(const LagStudy& study) {
 
 void add_lag_study(CLI::App& app) {
     auto study = std::make_shared<LagStudy>();
-    CLI::App* sub =
-        app.add_subcommand("lag", "How many frames late a method shows that the world has changed");
+    CLI::App* sub = app.add_subcommand("lag", "How many frames late a method shows a change of the scene");
     study->options.scene.scene = "lantern_court";
     study->options.scene.width = 160;
     study->options.scene.height = 90;
     add_session_options(*sub, study->options);
     sub->get_option("SCENE")->required(false);
-    sub->add_option("--methods", study->methods, "Methods, as bench names them")->capture_default_str();
+    sub->add_option("--methods", study->methods, "Methods, by their names in bench")->capture_default_str();
     sub->add_option("--seeds", study->seeds, "Independent seeds")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
-    sub->add_option("--warm-up", study->warm_up, "Frames before the step")
+    sub->add_option("--warm-up", study->warm_up, "Frames before the change")
         ->check(CLI::Range(FRAMES_BEFORE, 4096))
         ->capture_default_str();
-    sub->add_option("--frames", study->frames, "Frames after it; the second half is what the method comes to")
+    sub->add_option("--frames", study->frames,
+                    "Frames after the change; the second half shows where the method settles")
         ->check(CLI::Range(4, 4096))
         ->capture_default_str();
     sub->callback([study] { run(*study); });

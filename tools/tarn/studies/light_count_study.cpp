@@ -188,7 +188,7 @@ void run(const LightCountStudy& study) {
 
 void add_light_count_study(CLI::App& app) {
     auto study = std::make_shared<LightCountStudy>();
-    CLI::App* sub = app.add_subcommand("lights", "What a frame costs as the lights grow in number");
+    CLI::App* sub = app.add_subcommand("lights", "What a frame costs with more and more lights");
     study->options.settings = find_preset("fast").settings;
     add_render_options(*sub, study->options);
     sub->remove_option(sub->get_option("SCENE"));
@@ -196,10 +196,11 @@ void add_light_count_study(CLI::App& app) {
         ->delimiter(',')
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();
-    sub->add_option("--kind", study->kind, "points, or triangles that the rasterizer and rays meet too")
+    sub->add_option("--kind", study->kind,
+                    "points, or triangles, which the rasterizer draws and rays hit as well")
         ->check(CLI::IsMember({"points", "triangles"}))
         ->capture_default_str();
-    sub->add_option("--moving", study->moving_percent, "Per cent of them that move")
+    sub->add_option("--moving", study->moving_percent, "Percentage of the lights that move")
         ->check(make_finite_range(0.0, 100.0))
         ->capture_default_str();
     sub->add_option("--warm-up", study->warm_up, "Frames before those that count")

@@ -1,4 +1,4 @@
-// tarn study options: what each optional trick of restir does to the picture's energy and to its noise.
+// tarn study options: what each optional technique of ReSTIR does to the picture's energy and to its noise.
 #include "core/error.h"
 #include "core/log.h"
 #include "studies/study.h"
@@ -127,10 +127,10 @@ void add_option_study(CLI::App& app) {
     sub->add_option("--seeds", study->seeds, "Independent seeds")
         ->check(CLI::Range(3, 1000))
         ->capture_default_str();
-    sub->add_option("--warm-up", study->warm_up, "Frames that fill the past")
+    sub->add_option("--warm-up", study->warm_up, "Frames that fill the history")
         ->check(CLI::Range(1, 4096))
         ->capture_default_str();
-    sub->add_option("--frames", study->frames, "Frames that are averaged after it")
+    sub->add_option("--frames", study->frames, "Frames that are averaged after the warm-up")
         ->check(CLI::Range(1, 4096))
         ->capture_default_str();
     sub->callback([study] { run(*study); });

@@ -38,7 +38,7 @@ class TemporaryFolder {
 std::string format_estimate(const Estimate& estimate, int decimals);
 nlohmann::ordered_json describe_estimate(const Estimate& estimate);
 
-// The sequence of frames that a study looks at, of one seed: `warm_up` frames that fill the past, then
+// The sequence of frames that a study looks at, of one seed: `warm_up` frames that fill the history, then
 // `frames` more.
 struct StudySequence {
     RenderSettings settings;

@@ -266,7 +266,7 @@ void add_visibility_study(CLI::App& app) {
     study->options.scene.scene = "tinted_lights";
     study->options.scene.width = 128;
     study->options.scene.height = 72;
-    // As the paper has it: what neighbours gave is what the next frame finds.
+    // As in the paper: the next frame reuses the result of spatial reuse.
     study->options.settings = find_preset("fast").settings;
     study->options.settings.direct.reuse.feedback = true;
     study->options.settings.direct.reuse.radius_px = 30.0;
@@ -275,7 +275,7 @@ void add_visibility_study(CLI::App& app) {
     sub->add_option("--seeds", study->seeds, "Independent seeds")
         ->check(CLI::Range(4, 1000))
         ->capture_default_str();
-    sub->add_option("--warm-up", study->warm_up, "Frames that fill the past")
+    sub->add_option("--warm-up", study->warm_up, "Frames that fill the history")
         ->check(CLI::Range(1, 4096))
         ->capture_default_str();
     sub->add_option("--frames", study->frames, "Frames of each seed's converged image")
