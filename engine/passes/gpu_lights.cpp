@@ -14,16 +14,9 @@ constexpr std::size_t ROW_BYTES = sizeof(glm::uvec4);
 // Lights that stand still between two that moved cost less to write again than a call of their own.
 constexpr std::uint32_t GAP = 32;
 
-// Rows of the lights that changed, in few ranges.
-std::vector<IndexRange> list_changed_rows(const WorldLights& lights) {
-    std::vector<IndexRange> ranges;
-    for (const IndexRange& range : lights.changed) {
-        if (!ranges.empty() && range.first <= ranges.back().last + GAP) {
-            ranges.back().last = range.last;
-        } else {
-            ranges.push_back(range);
-        }
-    }
+// The rows of lights, in few ranges.
+std::vector<IndexRange> list_rows(std::vector<IndexRange> lights) {
+    std::vector<IndexRange> ranges = merge_ranges(std::move(lights), GAP);
     for (IndexRange& range : ranges) range = {range.first * LIGHT_ROWS, range.last * LIGHT_ROWS};
     return ranges;
 }
@@ -48,6 +41,7 @@ std::vector<glm::uvec4> make_remap(const std::vector<std::uint64_t>& previous,
 }  // namespace
 
 GpuLights::GpuLights(const WorldLights& lights) {
+    lights.changes.read(seen_);
     allocate(lights);
     upload_all(lights);
     copy_rows(0, capacity_, row_count_);
@@ -70,7 +64,6 @@ void GpuLights::upload_all(const WorldLights& lights) {
     alias_->buffer().upload(0, lights.alias_rows);
     row_count_ = lights.rows.size();
     identities_ = lights.identities;
-    revision_ = lights.revision;
     structure_revision_ = lights.structure_revision;
 }
 
@@ -84,16 +77,15 @@ void GpuLights::copy_rows(std::size_t from_row, std::size_t to_row, std::size_t 
 }
 
 void GpuLights::update(const WorldLights& lights) {
-    if (lights.revision == revision_) return;
+    if (!lights.changes.has_news(seen_)) return;
     have_changed_ = true;
-    // `changed` is about the latest update alone: after two of them all rows are uploaded.
-    if (lights.structure_revision == structure_revision_ && lights.revision == revision_ + 1) {
+    Changes changes = lights.changes.read(seen_);
+    if (!changes.everything && lights.structure_revision == structure_revision_) {
         // Rows moved, no light came or went: they alone.
-        for (const IndexRange& rows : list_changed_rows(lights)) {
+        for (const IndexRange& rows : list_rows(std::move(changes.ranges))) {
             upload_rows(lights, rows);
             changed_rows_.push_back(rows);
         }
-        revision_ = lights.revision;
         return;
     }
     if (lights.rows.size() > capacity_) {

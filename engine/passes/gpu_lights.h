@@ -48,7 +48,7 @@ class GpuLights {
     std::size_t row_count_ = 0;
     std::vector<std::uint64_t> identities_;           // of the lights in rows_
     std::vector<std::uint64_t> previous_identities_;  // of the last frame's
-    std::uint64_t revision_ = 0;
+    ChangeLog::Cursor seen_;
     std::uint64_t structure_revision_ = 0;
     std::vector<IndexRange> changed_rows_;  // where the two frames' rows may differ
     bool remapped_ = false;

@@ -25,8 +25,9 @@ bool is_black(const glm::vec3& v) {
 
 }  // namespace
 
-PathIntegrator::PathIntegrator(const World& world, const RayTracer& tracer, const ReferenceSettings& settings)
-    : world_(world), tracer_(tracer), settings_(settings), scene_(world) {}
+PathIntegrator::PathIntegrator(const World& world, const LightTree& light_tree, const RayTracer& tracer,
+                               const ReferenceSettings& settings)
+    : world_(world), tracer_(tracer), settings_(settings), scene_(world, &light_tree) {}
 
 glm::vec3 PathIntegrator::sample_radiance(int column, int row, std::uint32_t sample) {
     key_ = RandomKey{std::uint32_t(row) * std::uint32_t(settings_.width) + std::uint32_t(column), sample,

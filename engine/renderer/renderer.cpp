@@ -35,7 +35,7 @@ float depth_parameter(const World& world, const CameraRecord& camera) {
 
 }  // namespace
 
-Renderer::Renderer(World& world, const RayTracer& tracer, int width_px, int height_px,
+Renderer::Renderer(const World& world, const RayTracer& tracer, int width_px, int height_px,
                    std::vector<std::string> extra_defines)
     : world_(world),
       tracer_(tracer),
@@ -76,8 +76,8 @@ void Renderer::update_plan() {
 
 void Renderer::update_light_tree_for(const RenderSettings& settings) {
     if (settings.selection() != LightSelection::TREE) return;
-    frame_.pass("lights/tree").run_on_cpu([&] { update_light_tree(world_); });
-    gpu_light_tree_.update(world_.light_tree);
+    frame_.pass("lights/tree").run_on_cpu([&] { update_light_tree(light_tree_, world_.lights); });
+    gpu_light_tree_.update(light_tree_);
 }
 
 void Renderer::upload_frame_block(const FrameInput& input) {

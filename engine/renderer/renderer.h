@@ -40,10 +40,10 @@ struct FrameOutput {
 // Needs a current GL context. Same world, camera, frame, seed and settings give the same bits.
 class Renderer {
   public:
-    // Throws Error when the world does not fit the driver's limits. Keeps the world's light tree up to date
-    // where settings draw from it, and writes nothing else of it. `world` and `tracer` must outlive the
-    // renderer. `extra_defines` reach every shader: tests plant mistakes with them (TARN_PLANT_*).
-    Renderer(World& world, const RayTracer& tracer, int width_px, int height_px,
+    // Throws Error when the world does not fit the driver's limits. Any number of renderers may look at one
+    // world, each when it likes. `world` and `tracer` must outlive the renderer. `extra_defines` reach every
+    // shader: tests plant mistakes with them (TARN_PLANT_*).
+    Renderer(const World& world, const RayTracer& tracer, int width_px, int height_px,
              std::vector<std::string> extra_defines = {});
 
     // Uploads what moved; call after update_world and the tracer's update.
@@ -74,7 +74,7 @@ class Renderer {
     void upload_frame_block(const FrameInput& input);
     void advance(const FrameInput& input);
 
-    World& world_;
+    const World& world_;
     const RayTracer& tracer_;
     int width_px_;
     int height_px_;
@@ -86,6 +86,7 @@ class Renderer {
     std::uint64_t planned_materials_;
     ProgramLibrary programs_;
     GpuScene gpu_scene_;
+    LightTree light_tree_;  // once settings draw from it
     GpuLightTree gpu_light_tree_;
     FrameRecorder frame_;
     Buffer frame_block_;

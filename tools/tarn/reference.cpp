@@ -13,7 +13,6 @@
 #include "image_io/image_io.h"
 #include "output/output_files.h"
 #include "scene_options.h"
-#include "world/light_tree.h"
 
 namespace tarn {
 namespace {
@@ -81,7 +80,6 @@ void run_reference_command(ReferenceOptions& options) {
     settings.camera = choose_camera(options.scene, loaded.scene, loaded.world);
     settings.box_pixel_filter = options.pixel == "box";
     settings.cancel = &interrupt_flag();
-    if (settings.light_tree) update_light_tree(loaded.world);
     const ReferenceResult result = render_reference(loaded.world, *tracer, settings);
     write_picture(options.out, result);
     if (!options.json.empty()) write_report(options, result);
