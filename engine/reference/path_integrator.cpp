@@ -200,9 +200,7 @@ glm::vec3 PathIntegrator::weigh_emission(const Vertex& from, const Vertex& to, c
 
 // Density with which draw_light gives the emissive place `hit`, as seen from `point`; 0 where it never does.
 float PathIntegrator::light_pdf_solid_angle(const ShadingPoint& point, const Hit& hit) {
-    const std::uint32_t first = world_.lights.instance_first[hit.instance];
-    if (first == INVALID_INDEX) return 0.0f;
-    const std::uint32_t index = world_.lights.light_of_primitive[first + hit.primitive];
+    const std::uint32_t index = scene_.find_triangle_light(hit.instance, hit.primitive);
     if (index == INVALID_INDEX) return 0.0f;
     const Light light = scene_.load_light(index);
     const IncidentLight incident =

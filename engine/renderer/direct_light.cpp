@@ -49,20 +49,20 @@ DirectLight::DirectLight(ProgramLibrary& programs, int width_px, int height_px)
       shade_(programs, width_px, height_px),
       programs_(programs) {}
 
-const Texture2D& DirectLight::record(DirectFrame direct, const World& world, const RowBuffer* light_tree) {
+const Texture2D& DirectLight::record(DirectFrame direct, const RowBuffer* light_tree) {
     const CandidateSources sources = find_sources(direct, light_tree);
     const std::uint32_t seed = direct.shadow_key.seed;
     for (int i = 0; i < direct.settings.sample_count(); ++i) {
         direct.sample = std::uint32_t(i);
         direct.shadow_key.seed = seed ^ (direct.sample * SEED_STRIDE);
-        record_sample(direct, world, sources);
+        record_sample(direct, sources);
     }
     return shade_.radiance();
 }
 
-void DirectLight::record_sample(DirectFrame& direct, const World& world, CandidateSources sources) {
+void DirectLight::record_sample(DirectFrame& direct, CandidateSources sources) {
     if (direct.settings.resamples() && direct.settings.brdf_candidate) {
-        sources.brdf_samples = &trace_brdf(direct, world);
+        sources.brdf_hits = &trace_brdf(direct);
     }
     const std::vector<glm::vec3> targets = targets_of(direct.settings);
     while (lanes_.size() < targets.size()) lanes_.emplace_back(width_px_, height_px_);
@@ -83,14 +83,14 @@ CandidateSources DirectLight::find_sources(const DirectFrame& direct, const RowB
     return sources;
 }
 
-const RowBuffer& DirectLight::trace_brdf(const DirectFrame& direct, const World& world) {
+const RowBuffer& DirectLight::trace_brdf(const DirectFrame& direct) {
     if (!brdf_candidates_) {
         brdf_candidates_ = std::make_unique<BrdfCandidatesPass>(programs_, width_px_, height_px_);
     }
-    const RowBuffer& samples = brdf_candidates_->record(direct, world);
+    const RowBuffer& hits = brdf_candidates_->record(direct);
     rays_.closest += brdf_candidates_->result().traced;
     rays_.shadow.rejected += brdf_candidates_->result().rejected;
-    return samples;
+    return hits;
 }
 
 void DirectLight::record_lane(const DirectFrame& direct, std::size_t lane, const CandidateSources& sources) {

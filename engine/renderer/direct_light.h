@@ -25,7 +25,7 @@ class DirectLight {
     // RGBA32F: emission and direct light, W sr^-1 m^-2. `direct.target_weights` is set here, channel by
     // channel where the settings ask for that.
     // `light_tree`: its rows, where the settings draw from it.
-    const Texture2D& record(DirectFrame direct, const World& world, const RowBuffer* light_tree);
+    const Texture2D& record(DirectFrame direct, const RowBuffer* light_tree);
 
     // Ends a frame: its reservoirs become the last frame's.
     void advance();
@@ -59,10 +59,10 @@ class DirectLight {
         std::optional<Meaning> meaning;
     };
 
-    void record_sample(DirectFrame& direct, const World& world, CandidateSources sources);
+    void record_sample(DirectFrame& direct, CandidateSources sources);
     void record_lane(const DirectFrame& direct, std::size_t lane, const CandidateSources& sources);
     CandidateSources find_sources(const DirectFrame& direct, const RowBuffer* light_tree);
-    const RowBuffer& trace_brdf(const DirectFrame& direct, const World& world);
+    const RowBuffer& trace_brdf(const DirectFrame& direct);
     const RowBuffer& reuse(const DirectFrame& direct, Lane& lane, const Candidates& fresh);
     static bool has_past(const DirectFrame& direct, const Lane& lane);
     const RowBuffer& trace(const DirectFrame& direct, const std::string& name, const Buffer& rays);

@@ -97,7 +97,9 @@ void Renderer::upload_frame_block(const FrameInput& input) {
     block.frame_history =
         glm::uvec4(gpu_scene_.previous_first_instance(), gpu_scene_.lights().previous_first_row(),
                    gpu_scene_.lights().remap_first_row(), 0u);
-    block.frame_tables = glm::uvec4(gpu_light_tree_.node_count(), 0u, 0u, 0u);
+    block.frame_tables =
+        glm::uvec4(gpu_light_tree_.node_count(), gpu_scene_.lights().instance_lookup_first_row(),
+                   gpu_scene_.lights().slot_lookup_first_row(), 0u);
     frame_block_.upload(0, std::span<const FrameBlock>(&block, 1));
     frame_block_.bind_uniform(BLOCK_FRAME);
 }
@@ -116,7 +118,7 @@ FrameOutput Renderer::render(const FrameInput& input) {
     const Texture2D& radiance =
         direct_light_.record({frame_, tracer_, gbuffer, input.settings, glm::vec3(0.0f), counters_, defines_,
                               shadow_key, follows ? last_frame_ : std::nullopt, has_moved},
-                             world_, gpu_light_tree_.rows());
+                             gpu_light_tree_.rows());
 
     const DirectLight::Rays rays = direct_light_.take_rays();
     rejected_rays_ += rays.shadow.rejected;

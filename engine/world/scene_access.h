@@ -38,6 +38,8 @@ class SceneAccess {
     uvec4 fetch_light_alias_row(uint row) const { return world_.lights.alias_rows[row]; }
     uvec4 fetch_light_tree_row(uint row) const { return light_tree_->rows[row]; }
     uint get_light_tree_node_count() const { return light_tree_ != nullptr ? light_tree_->node_count : 0u; }
+    uint fetch_light_slot(uint instance) const { return world_.lights.instance_first[instance]; }
+    uint fetch_light_of_slot(uint slot) const { return world_.lights.light_of_primitive[slot]; }
     vec4 fetch_environment_texel(uint texel) const { return world_.environment.texels[texel]; }
     uvec4 fetch_environment_alias_row(uint row) const { return world_.environment.alias_rows[row]; }
     uint get_light_count() const { return world_.lights.count; }
@@ -54,7 +56,8 @@ class SceneAccess {
 
 #include "shared/scene/lights.h"
 #include "shared/scene/surface.h"
-// Builds on lights.h.
+// These build on lights.h.
+#include "shared/scene/light_hits.h"
 #include "shared/scene/light_tree.h"
 
   private:

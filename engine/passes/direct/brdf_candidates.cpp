@@ -10,22 +10,21 @@ BrdfCandidatesPass::BrdfCandidatesPass(ProgramLibrary& programs, int width_px, i
       width_px_(width_px),
       height_px_(height_px),
       rays_(make_pixel_rows("direct/brdf_rays", width_px, height_px, RAY_ROWS, BufferUse::SHARED)),
-      samples_(make_pixel_rows("direct/brdf_samples", width_px, height_px, 1, BufferUse::SHARED)) {}
+      hits_(make_pixel_rows("direct/brdf_hits", width_px, height_px, HIT_ROWS, BufferUse::SHARED)) {}
 
-const RowBuffer& BrdfCandidatesPass::record(const DirectFrame& direct, const World& world) {
+const RowBuffer& BrdfCandidatesPass::record(const DirectFrame& direct) {
     const Program& program = programs_.compute("direct/brdf_rays", direct.defines);
     program.set("sample_index", direct.sample);
     PassRecorder pass = direct.frame.pass("direct/brdf_rays");
     read_gbuffer(pass, direct.gbuffer).write(0, rays_).dispatch(program, width_px_, height_px_);
     direct.frame.pass("direct/brdf_hits")
         .read_on_cpu(rays_.buffer())
-        .write_on_cpu(samples_.buffer())
+        .write_on_cpu(hits_.buffer())
         .run_on_cpu([&] {
-            result_ =
-                direct.tracer.trace_lights(rays_.buffer().mapped<glm::uvec4>(),
-                                           samples_.buffer().mapped<glm::uvec4>(), world, direct.shadow_key);
+            result_ = direct.tracer.trace_closest_hits(
+                rays_.buffer().mapped<glm::uvec4>(), hits_.buffer().mapped<glm::uvec4>(), direct.shadow_key);
         });
-    return samples_;
+    return hits_;
 }
 
 }  // namespace tarn

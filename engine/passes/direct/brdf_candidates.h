@@ -9,8 +9,8 @@ class BrdfCandidatesPass {
   public:
     BrdfCandidatesPass(ProgramLibrary& programs, int width_px, int height_px);
 
-    // One row a pixel: the light sample that the ray met; see RayTracer::trace_lights.
-    const RowBuffer& record(const DirectFrame& direct, const World& world);
+    // HIT_ROWS rows a pixel: what the ray met.
+    const RowBuffer& record(const DirectFrame& direct);
 
     // Rays of the last batch.
     const RayBatchResult& result() const { return result_; }
@@ -20,7 +20,7 @@ class BrdfCandidatesPass {
     int width_px_;
     int height_px_;
     RowBuffer rays_;
-    RowBuffer samples_;
+    RowBuffer hits_;
     RayBatchResult result_;
 };
 

@@ -33,14 +33,14 @@ DirectCandidatesPass::DirectCandidatesPass(ProgramLibrary& programs, int width_p
 Candidates DirectCandidatesPass::record(const DirectFrame& direct, const CandidateSources& sources) {
     std::vector<std::string> defines = direct.defines;
     defines.emplace_back(selection_define(direct.settings.selection()));
-    if (sources.brdf_samples != nullptr) defines.emplace_back("TARN_BRDF_CANDIDATE");
+    if (sources.brdf_hits != nullptr) defines.emplace_back("TARN_BRDF_CANDIDATE");
     const Program& program = programs_.compute("direct/candidates", defines);
     program.set("candidate_count", unsigned(direct.settings.resamples() ? direct.settings.candidates : 1));
     program.set("sample_index", direct.sample);
     program.set("target_weights", direct.target_weights);
     PassRecorder pass = direct.frame.pass("direct/candidates");
     if (sources.tiles != nullptr) pass.read(UNIT_PASS_A, *sources.tiles);
-    if (sources.brdf_samples != nullptr) pass.read(UNIT_PASS_B, *sources.brdf_samples);
+    if (sources.brdf_hits != nullptr) pass.read(UNIT_PASS_B, *sources.brdf_hits);
     // Uploaded by the CPU, as the scene's other tables.
     if (sources.tree != nullptr) sources.tree->texture().bind(UNIT_PASS_C);
     read_gbuffer(pass, direct.gbuffer)

@@ -14,7 +14,7 @@ struct Candidates {
 struct CandidateSources {
     const RowBuffer* tiles = nullptr;
     const RowBuffer* tree = nullptr;
-    const RowBuffer* brdf_samples = nullptr;
+    const RowBuffer* brdf_hits = nullptr;
 };
 
 class DirectCandidatesPass {
