@@ -10,7 +10,7 @@ namespace tarn {
 
 class GpuLightTree {
   public:
-    // Uploads what changed since the last call; nothing for an empty tree.
+    // Uploads what changed since the last call.
     void update(const LightTree& tree);
 
     std::uint32_t node_count() const { return node_count_; }
@@ -20,8 +20,7 @@ class GpuLightTree {
   private:
     std::optional<RowBuffer> rows_;
     std::uint32_t node_count_ = 0;
-    std::uint64_t revision_ = 0;
-    std::uint64_t structure_revision_ = 0;
+    ChangeLog::Cursor seen_;
 };
 
 }  // namespace tarn

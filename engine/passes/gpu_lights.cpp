@@ -14,18 +14,20 @@ constexpr std::size_t ROW_BYTES = sizeof(glm::uvec4);
 // Lights that stand still between two that moved cost less to write again than a call of their own.
 constexpr std::uint32_t GAP = 32;
 
-// Rows of the lights that changed, in few ranges.
-std::vector<IndexRange> list_changed_rows(const WorldLights& lights) {
-    std::vector<IndexRange> ranges;
-    for (const IndexRange& range : lights.changed) {
-        if (!ranges.empty() && range.first <= ranges.back().last + GAP) {
-            ranges.back().last = range.last;
-        } else {
-            ranges.push_back(range);
-        }
-    }
+// The rows of lights, in few ranges.
+std::vector<IndexRange> list_rows(std::vector<IndexRange> lights) {
+    std::vector<IndexRange> ranges = merge_ranges(std::move(lights), GAP);
     for (IndexRange& range : ranges) range = {range.first * LIGHT_ROWS, range.last * LIGHT_ROWS};
     return ranges;
+}
+
+std::size_t count_word_rows(const std::vector<std::uint32_t>& words) {
+    return (words.size() + 3) / 4;
+}
+
+// Rows of what finds the light of a triangle.
+std::size_t count_lookup_rows(const WorldLights& lights) {
+    return count_word_rows(lights.instance_first) + count_word_rows(lights.light_of_primitive);
 }
 
 // Pairs of (index in the last frame, index now); see the head of gpu_lights.h.
@@ -48,16 +50,24 @@ std::vector<glm::uvec4> make_remap(const std::vector<std::uint64_t>& previous,
 }  // namespace
 
 GpuLights::GpuLights(const WorldLights& lights) {
+    lights.changes.read(seen_);
     allocate(lights);
     upload_all(lights);
     copy_rows(0, capacity_, row_count_);
     previous_identities_ = identities_;
 }
 
-// Room for the lights of two frames and their remap.
+bool GpuLights::has_room_for(const WorldLights& lights) const {
+    return lights.rows.size() <= capacity_ && count_lookup_rows(lights) <= lookup_capacity_;
+}
+
+// Room for the lights of two frames, their remap and the lookup; never less for the lights than there was,
+// since the last frame's may be more than this one's.
 void GpuLights::allocate(const WorldLights& lights) {
-    capacity_ = std::max<std::size_t>(lights.rows.size() + lights.rows.size() / 4, LIGHT_ROWS);
-    const std::size_t rows = 2 * capacity_ + capacity_ / LIGHT_ROWS + 1;
+    const auto with_reserve = [](std::size_t rows) { return rows + rows / 4; };
+    capacity_ = std::max({capacity_, with_reserve(lights.rows.size()), std::size_t(LIGHT_ROWS)});
+    lookup_capacity_ = with_reserve(count_lookup_rows(lights));
+    const std::size_t rows = first_lookup_row() + lookup_capacity_;
     rows_.emplace("scene/light_rows", rows * ROW_BYTES, BufferUse::DYNAMIC, GL_RGBA32UI);
 }
 
@@ -70,8 +80,15 @@ void GpuLights::upload_all(const WorldLights& lights) {
     alias_->buffer().upload(0, lights.alias_rows);
     row_count_ = lights.rows.size();
     identities_ = lights.identities;
-    revision_ = lights.revision;
     structure_revision_ = lights.structure_revision;
+    if (order_revision_ != lights.order_revision) upload_lookup(lights);
+    order_revision_ = lights.order_revision;
+}
+
+void GpuLights::upload_lookup(const WorldLights& lights) {
+    instance_rows_ = count_word_rows(lights.instance_first);
+    rows_->buffer().upload(instance_lookup_first_row() * ROW_BYTES, lights.instance_first);
+    rows_->buffer().upload(slot_lookup_first_row() * ROW_BYTES, lights.light_of_primitive);
 }
 
 void GpuLights::upload_rows(const WorldLights& lights, const IndexRange& rows) {
@@ -84,19 +101,20 @@ void GpuLights::copy_rows(std::size_t from_row, std::size_t to_row, std::size_t 
 }
 
 void GpuLights::update(const WorldLights& lights) {
-    if (lights.revision == revision_) return;
+    if (!lights.changes.has_news(seen_)) return;
     have_changed_ = true;
-    // `changed` is about the latest update alone: after two of them all rows are uploaded.
-    if (lights.structure_revision == structure_revision_ && lights.revision == revision_ + 1) {
+    Changes changes = lights.changes.read(seen_);
+    if (!changes.everything && lights.structure_revision == structure_revision_) {
         // Rows moved, no light came or went: they alone.
-        for (const IndexRange& rows : list_changed_rows(lights)) {
+        for (const IndexRange& rows : list_rows(std::move(changes.ranges))) {
             upload_rows(lights, rows);
             changed_rows_.push_back(rows);
         }
-        revision_ = lights.revision;
+        // Many updates may pass before a frame is drawn.
+        changed_rows_ = merge_ranges(std::move(changed_rows_));
         return;
     }
-    if (lights.rows.size() > capacity_) {
+    if (!has_room_for(lights)) {
         const RowBuffer old = std::move(*rows_);
         const std::size_t old_capacity = capacity_;
         allocate(lights);
@@ -107,7 +125,7 @@ void GpuLights::update(const WorldLights& lights) {
     changed_rows_.assign(1, {0u, std::uint32_t(row_count_)});
     remapped_ = identities_ != previous_identities_;
     if (remapped_)
-        rows_->buffer().upload(2 * capacity_ * ROW_BYTES, make_remap(previous_identities_, identities_));
+        rows_->buffer().upload(first_remap_row() * ROW_BYTES, make_remap(previous_identities_, identities_));
 }
 
 void GpuLights::advance() {
@@ -119,7 +137,7 @@ void GpuLights::advance() {
 }
 
 std::uint32_t GpuLights::remap_first_row() const {
-    return remapped_ ? std::uint32_t(2 * capacity_) : INVALID_INDEX;
+    return remapped_ ? std::uint32_t(first_remap_row()) : INVALID_INDEX;
 }
 
 void GpuLights::bind() const {

@@ -4,6 +4,9 @@
 // WorldLights, from `previous_first_row()` on those of the last frame, and, where lights came, went or
 // changed places, one row an index: (index in the last frame of light i, index now of the last frame's light
 // i), INVALID_INDEX for none.
+//
+// Behind them, for rays that meet triangles: WorldLights::instance_first and light_of_primitive, four words a
+// row.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +14,7 @@
 #include <vector>
 
 #include "gl/row_buffer.h"
+#include "shared/math/light.h"
 #include "world/world.h"
 
 namespace tarn {
@@ -31,6 +35,9 @@ class GpuLights {
     std::uint32_t previous_first_row() const { return std::uint32_t(capacity_); }
     // INVALID_INDEX where every light has the index that it had.
     std::uint32_t remap_first_row() const;
+    // Where the lookup of lights begins, by instance and by slot.
+    std::uint32_t instance_lookup_first_row() const { return std::uint32_t(first_lookup_row()); }
+    std::uint32_t slot_lookup_first_row() const { return std::uint32_t(first_lookup_row() + instance_rows_); }
     // Whether any light ever changed: only then do shaders tell the two frames apart.
     bool have_changed() const { return have_changed_; }
     // Whether any is not what it was in the last frame.
@@ -38,18 +45,26 @@ class GpuLights {
 
   private:
     void allocate(const WorldLights& lights);
+    bool has_room_for(const WorldLights& lights) const;
     void upload_all(const WorldLights& lights);
+    void upload_lookup(const WorldLights& lights);
     void upload_rows(const WorldLights& lights, const IndexRange& rows);
     void copy_rows(std::size_t from_row, std::size_t to_row, std::size_t count);
+    std::size_t first_remap_row() const { return 2 * capacity_; }
+    // The remap has a row for each light that there is room for.
+    std::size_t first_lookup_row() const { return first_remap_row() + capacity_ / LIGHT_ROWS + 1; }
 
     std::optional<RowBuffer> rows_;
     std::optional<RowBuffer> alias_;
     std::size_t capacity_ = 0;  // rows for the lights of one frame
     std::size_t row_count_ = 0;
+    std::size_t lookup_capacity_ = 0;                 // rows
+    std::size_t instance_rows_ = 0;                   // of the lookup
     std::vector<std::uint64_t> identities_;           // of the lights in rows_
     std::vector<std::uint64_t> previous_identities_;  // of the last frame's
-    std::uint64_t revision_ = 0;
+    ChangeLog::Cursor seen_;
     std::uint64_t structure_revision_ = 0;
+    std::uint64_t order_revision_ = 0;
     std::vector<IndexRange> changed_rows_;  // where the two frames' rows may differ
     bool remapped_ = false;
     bool have_changed_ = false;

@@ -1,4 +1,4 @@
-// Batches of shadow rays over the worker threads. Each ray is answered alone, so the answers know nothing of
+// Batches of rays over the worker threads. Each ray is answered alone, so the answers know nothing of
 // threads.
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -9,7 +9,6 @@
 #include "rays/flush_denormals.h"
 #include "rays/ray_checks.h"
 #include "rays/ray_tracer.h"
-#include "shared/math/light.h"
 
 namespace tarn {
 namespace {
@@ -48,18 +47,8 @@ RayBatchResult for_each_ray(std::span<const glm::uvec4> ray_rows, const Answer& 
     return {traced, rejected};
 }
 
-// The light sample at a hit; INVALID_INDEX where nothing emits.
-glm::uvec4 light_sample_row(const WorldLights& lights, const Hit& hit) {
-    const std::uint32_t first = lights.instance_first[hit.instance];
-    const std::uint32_t light =
-        first == INVALID_INDEX ? INVALID_INDEX : lights.light_of_primitive[first + hit.primitive];
-    return {light, floatBitsToUint(hit.barycentrics.x), floatBitsToUint(hit.barycentrics.y), 0u};
-}
-
-glm::uvec4 sky_sample_row(const World& world, const glm::vec3& direction) {
-    if (world.environment.width == 0) return glm::uvec4(INVALID_INDEX, 0u, 0u, 0u);
-    const glm::vec2 uv = encode_octahedral(direction);
-    return {LIGHT_ENVIRONMENT, floatBitsToUint(uv.x), floatBitsToUint(uv.y), 0u};
+HitRecord record_hit(const RayRecord& ray, const Hit& hit) {
+    return {hit.instance, hit.primitive, hit.barycentrics, ray.direction, hit.t};
 }
 
 }  // namespace
@@ -86,16 +75,15 @@ RayBatchResult RayTracer::trace_visibility(std::span<const glm::uvec4> ray_rows,
     });
 }
 
-RayBatchResult RayTracer::trace_lights(std::span<const glm::uvec4> ray_rows,
-                                       std::span<glm::uvec4> sample_rows, const World& world,
-                                       const CoverageKey& key) const {
-    TARN_ASSERT(ray_rows.size() == sample_rows.size() * RAY_ROWS, "{} ray rows for {} samples",
-                ray_rows.size(), sample_rows.size());
+RayBatchResult RayTracer::trace_closest_hits(std::span<const glm::uvec4> ray_rows,
+                                             std::span<glm::uvec4> hit_rows, const CoverageKey& key) const {
+    TARN_ASSERT(ray_rows.size() / RAY_ROWS == hit_rows.size() / HIT_ROWS, "{} ray rows for {} hit rows",
+                ray_rows.size(), hit_rows.size());
     return for_each_ray(ray_rows, [&](const RayRecord& ray, RayState state, std::size_t i) {
-        sample_rows[i] = glm::uvec4(INVALID_INDEX, 0u, 0u, 0u);
-        if (state != RayState::TRACEABLE) return;
-        const auto hit = trace_closest(ray, key);
-        sample_rows[i] = hit ? light_sample_row(world.lights, *hit) : sky_sample_row(world, ray.direction);
+        const bool traced = state == RayState::TRACEABLE;
+        const auto hit = traced ? trace_closest(ray, key) : std::nullopt;
+        pack_hit(hit ? record_hit(ray, *hit) : no_hit(ray.direction, traced), hit_rows[i * HIT_ROWS],
+                 hit_rows[i * HIT_ROWS + 1]);
     });
 }
 

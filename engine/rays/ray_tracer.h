@@ -79,12 +79,11 @@ class RayTracer {
     RayBatchResult trace_visibility(std::span<const glm::uvec4> ray_rows, std::span<float> visibility,
                                     const CoverageKey& key, const PreviousRays& previous = {}) const;
 
-    // Where rays end, as light samples: traces a batch on the worker threads, `ray_rows` as above;
-    // `sample_rows` gets one row a ray: (light, uv as bits, 0), light being an index of `world.lights`,
-    // LIGHT_ENVIRONMENT for rays that leave the scene where there is a sky, or INVALID_INDEX. Same answers
-    // for any number of threads.
-    RayBatchResult trace_lights(std::span<const glm::uvec4> ray_rows, std::span<glm::uvec4> sample_rows,
-                                const World& world, const CoverageKey& key) const;
+    // What rays meet first: traces a batch on the worker threads, `ray_rows` as above; `hit_rows` gets
+    // HIT_ROWS rows a ray (HitRecord). Both may be memory that GL shares. Same answers for any number of
+    // threads.
+    RayBatchResult trace_closest_hits(std::span<const glm::uvec4> ray_rows, std::span<glm::uvec4> hit_rows,
+                                      const CoverageKey& key) const;
 
   private:
     // The same for a ray that was checked: finite, with a direction, and active.

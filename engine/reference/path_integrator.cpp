@@ -25,8 +25,9 @@ bool is_black(const glm::vec3& v) {
 
 }  // namespace
 
-PathIntegrator::PathIntegrator(const World& world, const RayTracer& tracer, const ReferenceSettings& settings)
-    : world_(world), tracer_(tracer), settings_(settings), scene_(world) {}
+PathIntegrator::PathIntegrator(const World& world, const LightTree& light_tree, const RayTracer& tracer,
+                               const ReferenceSettings& settings)
+    : world_(world), tracer_(tracer), settings_(settings), scene_(world, &light_tree) {}
 
 glm::vec3 PathIntegrator::sample_radiance(int column, int row, std::uint32_t sample) {
     key_ = RandomKey{std::uint32_t(row) * std::uint32_t(settings_.width) + std::uint32_t(column), sample,
@@ -199,9 +200,7 @@ glm::vec3 PathIntegrator::weigh_emission(const Vertex& from, const Vertex& to, c
 
 // Density with which draw_light gives the emissive place `hit`, as seen from `point`; 0 where it never does.
 float PathIntegrator::light_pdf_solid_angle(const ShadingPoint& point, const Hit& hit) {
-    const std::uint32_t first = world_.lights.instance_first[hit.instance];
-    if (first == INVALID_INDEX) return 0.0f;
-    const std::uint32_t index = world_.lights.light_of_primitive[first + hit.primitive];
+    const std::uint32_t index = scene_.find_triangle_light(hit.instance, hit.primitive);
     if (index == INVALID_INDEX) return 0.0f;
     const Light light = scene_.load_light(index);
     const IncidentLight incident =

@@ -9,7 +9,9 @@ namespace tarn {
 // Draws paths. Cheap to make; one for each task.
 class PathIntegrator {
   public:
-    PathIntegrator(const World& world, const RayTracer& tracer, const ReferenceSettings& settings);
+    // `light_tree`: up to date where the settings draw from it.
+    PathIntegrator(const World& world, const LightTree& light_tree, const RayTracer& tracer,
+                   const ReferenceSettings& settings);
 
     // Radiance of sample number `sample` of the pixel in `column` and `row`. A pure function of these and the
     // seed.

@@ -36,12 +36,13 @@ void check_settings(const ReferenceSettings& s) {
 }
 
 // Adds samples [first, first + count) to every pixel. Each pixel belongs to one task, which adds in order.
-std::uint64_t render_pass(const World& world, const RayTracer& tracer, const ReferenceSettings& settings,
-                          Film& film, std::uint64_t first, std::uint64_t count) {
+std::uint64_t render_pass(const World& world, const LightTree& light_tree, const RayTracer& tracer,
+                          const ReferenceSettings& settings, Film& film, std::uint64_t first,
+                          std::uint64_t count) {
     std::atomic<std::uint64_t> rays{0};
     const auto render_tile = [&](const tbb::blocked_range2d<int>& tile) {
         const FlushDenormals flush;
-        PathIntegrator integrator(world, tracer, settings);
+        PathIntegrator integrator(world, light_tree, tracer, settings);
         for (int row = tile.rows().begin(); row != tile.rows().end(); ++row) {
             for (int column = tile.cols().begin(); column != tile.cols().end(); ++column) {
                 const std::size_t pixel =
@@ -74,16 +75,15 @@ std::uint64_t estimate_progress(const ReferenceSettings& settings, std::uint64_t
 ReferenceResult render_reference(const World& world, const RayTracer& tracer,
                                  const ReferenceSettings& settings) {
     check_settings(settings);
-    if (settings.light_tree && world.light_tree.lights_revision != world.lights.revision) {
-        throw Error("reference: the world's light tree is not up to date");
-    }
     const auto start = std::chrono::steady_clock::now();
+    LightTree light_tree;
+    if (settings.light_tree) update_light_tree(light_tree, world.lights);
     Film film(settings.width, settings.height);
     Progress progress("reference", 1000);
     ReferenceResult result;
     while (result.spp < settings.spp && !result.cancelled) {
         const std::uint64_t count = std::min(PASS_SAMPLES, settings.spp - result.spp);
-        result.rays += render_pass(world, tracer, settings, film, result.spp, count);
+        result.rays += render_pass(world, light_tree, tracer, settings, film, result.spp, count);
         result.spp += count;
         result.cancelled = settings.cancel != nullptr && settings.cancel->load();
         result.relative_error = film.relative_error();

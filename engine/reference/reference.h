@@ -31,8 +31,8 @@ struct ReferenceSettings {
     std::uint32_t seed = 0;
     bool box_pixel_filter = false;  // false: the pixel's centre, as the rasterizer sees it
     LightStrategy strategy = LightStrategy::MIS;
-    // Lights drawn by the world's light tree instead of by power: where they are many, the same error in
-    // fewer samples. The tree must be up to date (update_light_tree), else render_reference throws.
+    // Lights drawn by a light tree, built for the picture, instead of by power: where they are many, the same
+    // error in fewer samples.
     bool light_tree = false;
     PlantedBug planted_bug = PlantedBug::NONE;
     const std::atomic<bool>* cancel = nullptr;  // when it turns true, the current pass is the last

@@ -42,7 +42,7 @@ Renderer::Values Renderer::record_frame(const FrameContext& frame, const CameraR
     Picture radiance;
     for (const SampleSlot& slot : list_slots(frame)) {
         if (plan.brdf_rays && slot.lane == 0) {
-            sources.brdf_samples = trace_brdf_candidates(frame, gbuffer, slot, world_);
+            sources.brdf_hits = trace_brdf_candidates(frame, gbuffer, slot);
         }
         Samples fresh = choose_candidates(frame, gbuffer, slot, sources);
         if (reuse.tests_fresh_samples) {

@@ -34,7 +34,7 @@ float depth_parameter(const World& world, const CameraRecord& camera) {
 
 }  // namespace
 
-Renderer::Renderer(World& world, const RayTracer& tracer, int width_px, int height_px, Defines extra_defines)
+Renderer::Renderer(const World& world, const RayTracer& tracer, int width_px, int height_px, Defines extra_defines)
     : world_(world),
       tracer_(tracer),
       size_px_(width_px, height_px),
@@ -71,8 +71,8 @@ void Renderer::survey() {
 }
 
 void Renderer::fit_light_tree() {
-    recorder_.pass("lights/tree").run_on_cpu([&] { update_light_tree(world_); });
-    gpu_light_tree_.update(world_.light_tree);
+    recorder_.pass("lights/tree").run_on_cpu([&] { update_light_tree(light_tree_, world_.lights); });
+    gpu_light_tree_.update(light_tree_);
 }
 
 bool Renderer::has_moved(const CameraRecord& camera) const {
@@ -97,7 +97,8 @@ void Renderer::upload_frame_block(const FrameInput& input) {
     block.frame_history =
         glm::uvec4(gpu_scene_.previous_first_instance(), gpu_scene_.lights().previous_first_row(),
                    gpu_scene_.lights().remap_first_row(), 0u);
-    block.frame_tables = glm::uvec4(gpu_light_tree_.node_count(), 0u, 0u, 0u);
+    block.frame_tables = glm::uvec4(gpu_light_tree_.node_count(), gpu_scene_.lights().instance_lookup_first_row(),
+                   gpu_scene_.lights().slot_lookup_first_row(), 0u);
     frame_block_.upload(0, std::span<const FrameBlock>(&block, 1));
     recorder_.bind_frame_block(frame_block_);
 }

@@ -41,11 +41,10 @@ struct FrameOutput {
 // Needs a current GL context. Same world, camera, frame, seed and settings give the same bits.
 class Renderer {
   public:
-    // Throws Error when the world does not fit the driver's limits. Keeps the world's light tree up to date
-    // where settings draw from it, and writes nothing else of it. `world` and `tracer` must outlive the
-    // renderer. `extra_defines` reach every shader of the scene: tests plant mistakes with them
+    // Throws Error when the world does not fit the driver's limits. Any number of renderers may look at one
+    // world, each when it likes. `world` and `tracer` must outlive the renderer. `extra_defines` reach every shader of the scene: tests plant mistakes with them
     // (TARN_PLANT_*).
-    Renderer(World& world, const RayTracer& tracer, int width_px, int height_px, Defines extra_defines = {});
+    Renderer(const World& world, const RayTracer& tracer, int width_px, int height_px, Defines extra_defines = {});
 
     // Uploads what moved; call after update_world and the tracer's update.
     void update();
@@ -82,7 +81,7 @@ class Renderer {
     void upload_frame_block(const FrameInput& input);
     bool has_moved(const CameraRecord& camera) const;
 
-    World& world_;
+    const World& world_;
     const RayTracer& tracer_;
     glm::ivec2 size_px_;
     Defines extra_defines_;
@@ -94,6 +93,7 @@ class Renderer {
     FramePlan plan_;
     ProgramLibrary programs_;
     GpuScene gpu_scene_;
+    LightTree light_tree_;  // once settings draw from it
     GpuLightTree gpu_light_tree_;
     FrameRecorder recorder_;
     Buffer frame_block_;

@@ -23,7 +23,4 @@ glm::mat3 measure_scale(const glm::mat4& world_from_object);
 
 void rebuild_alias_table(WorldLights& lights);
 
-// Sets what the latest update wrote: ranges in any order, which may touch and overlap.
-void set_changed(WorldLights& lights, std::vector<IndexRange> ranges);
-
 }  // namespace tarn

@@ -9,7 +9,6 @@
 
 #include "shared/math/light_tree.h"
 #include "world/light_tree_builder.h"
-#include "world/world.h"
 
 namespace tarn {
 namespace {
@@ -152,13 +151,13 @@ class Builder {
 };
 
 void build_tree(LightTree& tree, const WorldLights& lights) {
-    const std::uint64_t structure = tree.structure_revision, revision = tree.revision;
-    tree = LightTree{};
-    Builder(tree, lights).build();
-    tree.structure_revision = structure + 1;
-    tree.revision = revision + 1;
-    tree.changed.clear();
-    if (!tree.rows.empty()) tree.changed.push_back({0, std::uint32_t(tree.rows.size())});
+    LightTree built;
+    Builder(built, lights).build();
+    built.changes = std::move(tree.changes);
+    built.changes.append_everything();
+    built.structure_revision = tree.structure_revision + 1;
+    built.lights_seen = tree.lights_seen;
+    tree = std::move(built);
 }
 
 // ---- Fitting
@@ -182,8 +181,8 @@ class Fitter {
 
     void fit() {
         fit_node(0, 0);
-        tree_.changed = list_changed_rows();
-        if (!tree_.changed.empty()) ++tree_.revision;
+        std::vector<IndexRange> rows = list_changed_rows();
+        if (!rows.empty()) tree_.changes.append(std::move(rows));
     }
 
   private:
@@ -218,14 +217,11 @@ class Fitter {
 };
 
 // Fits what moved; false where the tree must be built instead.
-bool fit_tree(LightTree& tree, const WorldLights& lights) {
+bool fit_tree(LightTree& tree, const WorldLights& lights, const Changes& changes) {
     if (tree.order_revision != lights.order_revision) return false;
-    // `changed` tells of the latest update alone.
-    const bool missed_some = lights.revision != tree.lights_revision + 1;
-    const std::vector<IndexRange> moved =
-        missed_some ? std::vector<IndexRange>{{0u, lights.count}} : lights.changed;
+    const std::vector<IndexRange> all = {{0u, lights.count}};
     Fitter fitter(tree);
-    for (const IndexRange& range : moved) {
+    for (const IndexRange& range : changes.everything ? all : changes.ranges) {
         for (std::uint32_t light = range.first; light < range.last; ++light) {
             const bool is_in_tree = light < tree.leaves.size() && tree.leaves[light] != INVALID_INDEX;
             if (belongs_in_tree(lights, light) != is_in_tree) return false;
@@ -238,14 +234,11 @@ bool fit_tree(LightTree& tree, const WorldLights& lights) {
 
 }  // namespace
 
-void update_light_tree(World& world) {
-    LightTree& tree = world.light_tree;
-    const WorldLights& lights = world.lights;
-    tree.changed.clear();
-    if (tree.structure_revision > 0 && tree.lights_revision == lights.revision) return;
-    if (tree.structure_revision == 0 || !fit_tree(tree, lights)) build_tree(tree, lights);
+void update_light_tree(LightTree& tree, const WorldLights& lights) {
+    if (!lights.changes.has_news(tree.lights_seen)) return;
+    const Changes changes = lights.changes.read(tree.lights_seen);
+    if (tree.structure_revision == 0 || !fit_tree(tree, lights, changes)) build_tree(tree, lights);
     tree.order_revision = lights.order_revision;
-    tree.lights_revision = lights.revision;
 }
 
 }  // namespace tarn

@@ -137,8 +137,8 @@ void rebuild_alias_table(WorldLights& lights) {
 }
 
 void rebuild_lights(World& world, const Scene& scene, const Pose& pose) {
-    const std::uint64_t order = world.lights.order_revision, structure = world.lights.structure_revision,
-                        revision = world.lights.revision;
+    const std::uint64_t order = world.lights.order_revision, structure = world.lights.structure_revision;
+    ChangeLog changes = std::move(world.lights.changes);
     WorldLights& lights = world.lights = WorldLights{};
     add_punctual_lights(lights, list_punctual_lights(world, scene, pose), scene.nodes.size());
     add_triangle_lights(world);
@@ -146,8 +146,8 @@ void rebuild_lights(World& world, const Scene& scene, const Pose& pose) {
     rebuild_alias_table(lights);
     lights.order_revision = order + 1;
     lights.structure_revision = structure + 1;
-    lights.revision = revision + 1;
-    set_changed(lights, {{0u, lights.count}});
+    lights.changes = std::move(changes);
+    lights.changes.append_everything();
 }
 
 }  // namespace tarn

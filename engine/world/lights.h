@@ -5,15 +5,9 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "world/change_log.h"
+
 namespace tarn {
-
-// A half-open range of indices; empty where both are the same.
-struct IndexRange {
-    std::uint32_t first = 0;
-    std::uint32_t last = 0;
-
-    friend bool operator==(const IndexRange&, const IndexRange&) = default;
-};
 
 // The triangle lights of one instance, and the state of the instance from which they were written.
 struct EmissiveInstance {
@@ -29,10 +23,10 @@ struct EmissiveInstance {
 // Lights keep their order: punctual ones as in Scene::light_nodes, then the emissive triangles by instance
 // and primitive.
 //
-// Three revisions, each of which grows only with what it is about, and always with the next one:
-// `order_revision` (lights came, went or changed places, so that indices mean something else),
-// `structure_revision` (that, or the alias table or an emission map changed) and `revision` (anything
-// changed). Where `structure_revision` has not grown, all that changed is in `changed`.
+// What changed travels by `changes`, which each reader follows with a cursor of its own. Two revisions tell
+// what it means: `order_revision` grows where lights came, went or changed places, so that indices mean
+// something else; `structure_revision` with that, and where the alias table or an emission map changed. Where
+// it has not grown, all that changed is in `changes`.
 struct WorldLights {
     std::vector<glm::uvec4> rows;        // LIGHT_ROWS a light, then EMISSION_MAP_ROWS a textured one
     std::vector<glm::uvec4> alias_rows;  // by power
@@ -52,11 +46,9 @@ struct WorldLights {
     std::vector<std::uint32_t> light_of_primitive;
     std::vector<EmissiveInstance> emissive_instances;  // in the order of their lights
 
-    // Lights whose rows the latest build_world or update_world wrote: ascending ranges that do not touch.
-    std::vector<IndexRange> changed;
+    ChangeLog changes;  // of lights whose rows were written
     std::uint64_t order_revision = 0;
     std::uint64_t structure_revision = 0;
-    std::uint64_t revision = 0;
 };
 
 // Relative change of a light's power from which on the alias table follows it. Any table gives the same mean.

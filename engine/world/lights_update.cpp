@@ -134,23 +134,6 @@ void update_triangle_lights(World& world, bool edited, Findings& findings) {
     });
 }
 
-}  // namespace
-
-void set_changed(WorldLights& lights, std::vector<IndexRange> ranges) {
-    std::sort(ranges.begin(), ranges.end(), [](auto& a, auto& b) { return a.first < b.first; });
-    lights.changed.clear();
-    for (const IndexRange& range : ranges) {
-        if (range.first == range.last) continue;
-        if (!lights.changed.empty() && range.first <= lights.changed.back().last) {
-            lights.changed.back().last = std::max(lights.changed.back().last, range.last);
-        } else {
-            lights.changed.push_back(range);
-        }
-    }
-}
-
-namespace {
-
 // Takes over what was found; all anew where lights came or went.
 void finish_update(World& world, const Scene& scene, const Pose& pose, Findings& findings) {
     WorldLights& lights = world.lights;
@@ -158,12 +141,12 @@ void finish_update(World& world, const Scene& scene, const Pose& pose, Findings&
         rebuild_lights(world, scene, pose);
         return;
     }
-    set_changed(lights, std::move(findings.changed));
     if (findings.powers_changed) {
         rebuild_alias_table(lights);
         ++lights.structure_revision;
     }
-    if (findings.powers_changed || !lights.changed.empty()) ++lights.revision;
+    std::vector<IndexRange> changed = merge_ranges(std::move(findings.changed));
+    if (findings.powers_changed || !changed.empty()) lights.changes.append(std::move(changed));
 }
 
 // Lights of successive nodes make one range.

@@ -1,7 +1,6 @@
 #include "world/world.h"
 
 #include "world/build_steps.h"
-#include "world/light_table.h"
 
 namespace tarn {
 namespace {
@@ -47,10 +46,7 @@ World build_world(const Scene& scene, const WorldOptions& options) {
 void update_world(World& world, const Scene& scene, double time_s) {
     const auto moved = scene.moves.since(world.moves_followed);
     const bool edited = scene.revision != world.scene_revision || !moved;
-    if (scene.animations.empty() && !edited && moved->empty()) {
-        set_changed(world.lights, {});
-        return;
-    }
+    if (scene.animations.empty() && !edited && moved->empty()) return;
     if (edited) {
         world.pose.reset(scene, time_s);
         update_materials(world, scene);

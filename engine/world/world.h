@@ -15,7 +15,6 @@
 #include "scene/live_pose.h"
 #include "scene/scene.h"
 #include "shared/interface/records.h"
-#include "world/light_tree.h"
 #include "world/lights.h"
 
 namespace tarn {
@@ -69,7 +68,6 @@ struct World {
     std::vector<std::uint32_t> material_flags;  // MATERIAL_*, one a material
     std::vector<glm::u16vec4> texels;
     WorldLights lights;
-    LightTree light_tree;  // empty until update_light_tree is called
     WorldEnvironment environment;
     LivePose pose;                        // of the scene at the latest update
     std::uint64_t scene_revision = 0;     // Scene::revision that this world follows
@@ -97,7 +95,7 @@ World build_world(const Scene& scene, const WorldOptions& options = {});
 // also follows edits: of nodes' transforms, of lights and light_nodes, and of materials' factors; where only
 // Scene::moves has, of those nodes and what hangs below them, at a cost that does not grow with the others.
 // (Meshes, instances, texture slots and alpha modes are those of build_world, and so is the sky.) Only what
-// changed is written, revisions grow where something may have changed, and WorldLights::changed says which
+// changed is written, revisions grow where something may have changed, and WorldLights::changes says which
 // lights. Without animations and edits nothing is looked at. `bounds` and `origin_ws` stay those of the first
 // moment: they set the near plane, an orthographic camera's depth range and how often a directional light is
 // drawn, none of which is wrong for what moves out of them by less than the scene's size.

@@ -10,6 +10,7 @@
 
 #include "support/draws.h"
 #include "support/toy_scenes.h"
+#include "world/light_tree.h"
 #include "world/world.h"
 
 namespace tarn {
@@ -62,19 +63,22 @@ void measure(int light_count) {
     World world;
     const double world_ms = time_ms([&] { world = build_world(scene); });
     const std::clock_t start = std::clock();
-    const double build_ms = time_ms([&] { update_light_tree(world); });
+    LightTree tree;
+    const double build_ms = time_ms([&] { update_light_tree(tree, world.lights); });
     const double build_cpu_ms = 1e3 * double(std::clock() - start) / CLOCKS_PER_SEC;
     std::vector<double> update_ms, fit_ms;
+    ChangeLog::Cursor reader;
+    tree.changes.read(reader);
     std::size_t rows = 0;
     for (int i = 0; i < UPDATES; ++i) {
         move_one_percent(scene, draws);
         update_ms.push_back(time_ms([&] { update_world(world, scene, -1.0); }));
-        fit_ms.push_back(time_ms([&] { update_light_tree(world); }));
-        for (const IndexRange& range : world.light_tree.changed) rows += range.last - range.first;
+        fit_ms.push_back(time_ms([&] { update_light_tree(tree, world.lights); }));
+        for (const IndexRange& range : tree.changes.read(reader).ranges) rows += range.last - range.first;
     }
     fmt::print("{:>8} {:>12.1f} {:>14.2f} {:>12.1f} {:>14.1f} {:>10.2f} {:>16.1f}\n", light_count, world_ms,
                median(update_ms), build_ms, build_cpu_ms, median(fit_ms),
-               100.0 * double(rows) / UPDATES / double(world.light_tree.rows.size()));
+               100.0 * double(rows) / UPDATES / double(tree.rows.size()));
 }
 
 }  // namespace

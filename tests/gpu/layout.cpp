@@ -154,7 +154,7 @@ TEST_P(Layout, CppUnpacksWhatShadersPacked) {
 
 INSTANTIATE_TEST_SUITE_P(Records, Layout,
                          testing::Values(vertex_record(), material_record(), slot_record(), light_record(),
-                                         reservoir_record(), ray_record(), alias_record()),
+                                         reservoir_record(), ray_record(), hit_record(), alias_record()),
                          [](const auto& info) { return info.param.name; });
 
 // ---- Records that only the world packs ----------------------------------------------------------

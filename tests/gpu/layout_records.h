@@ -260,6 +260,35 @@ inline Record ray_record() {
     return r;
 }
 
+inline Record hit_record() {
+    Record r{"hit", HIT_ROWS, "uuffffff", {}, {}, {}, {}};
+    r.glsl_unpack = R"(
+        HitRecord h = unpack_hit(row(0u), row(1u));
+        put(h.instance); put(h.primitive); put(h.barycentrics); put(h.direction); put(h.distance);)";
+    r.glsl_pack = R"(
+        HitRecord h; h.instance = take(); h.primitive = take(); h.barycentrics = take2(); h.direction = take3();
+        h.distance = take1();
+        uvec4 a, b; pack_hit(h, a, b); store(0u, a); store(1u, b);)";
+    r.pack = [](FieldReader& in, glm::uvec4* rows) {
+        HitRecord hit;
+        hit.instance = in.take();
+        hit.primitive = in.take();
+        hit.barycentrics = in.take2();
+        hit.direction = in.take3();
+        hit.distance = in.take1();
+        pack_hit(hit, rows[0], rows[1]);
+    };
+    r.unpack = [](const glm::uvec4* rows, FieldWriter& out) {
+        const HitRecord hit = unpack_hit(rows[0], rows[1]);
+        out.put(hit.instance);
+        out.put(hit.primitive);
+        out.put(hit.barycentrics);
+        out.put(hit.direction);
+        out.put(hit.distance);
+    };
+    return r;
+}
+
 inline Record alias_record() {
     Record r{"alias_bucket", 1, "fuff", {}, {}, {}, {}};
     r.glsl_unpack = R"(

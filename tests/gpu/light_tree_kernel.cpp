@@ -34,7 +34,8 @@ std::vector<Item> make_items(const World& world) {
     return items;
 }
 
-std::vector<uvec4> draw_on_gl(const World& world, const std::vector<Item>& items) {
+std::vector<uvec4> draw_on_gl(const World& world, const LightTree& light_tree,
+                              const std::vector<Item>& items) {
     const auto context = create_context({});
     const ShaderFolder folder;
     const std::filesystem::path source = TARN_SOURCE_DIR;
@@ -44,14 +45,14 @@ std::vector<uvec4> draw_on_gl(const World& world, const std::vector<Item>& items
                             load_shader_source(folder.root(), "gpu/shaders/light_tree.comp", {})};
     Program program("light_tree", std::span(&stage, 1));
     const Buffer inputs = Buffer::from("inputs", items), lights = Buffer::from("lights", world.lights.rows),
-                 tree = Buffer::from("tree", world.light_tree.rows);
+                 tree = Buffer::from("tree", light_tree.rows);
     const Buffer outputs("outputs", items.size() * sizeof(uvec4), BufferUse::DEVICE);
     inputs.bind_storage(0);
     outputs.bind_storage(1);
     lights.bind_storage(2);
     tree.bind_storage(3);
     program.set("light_count", world.lights.count);
-    program.set("node_count", world.light_tree.node_count);
+    program.set("node_count", light_tree.node_count);
     program.use();
     glDispatchCompute(ITEM_COUNT / GROUP_SIZE, 1, 1);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
@@ -67,11 +68,12 @@ bool is_near(std::uint32_t gl_bits, float cpp) {
 TEST(LightTreeKernel, DrawsTheSameLightsWithTheSameProbability) {
     test::LightScene lights(3);
     lights.add_lights(2000, true);
-    World world = build_world(lights.scene());
-    update_light_tree(world);
+    const World world = build_world(lights.scene());
+    LightTree light_tree;
+    update_light_tree(light_tree, world.lights);
     const std::vector<Item> items = make_items(world);
-    const std::vector<uvec4> on_gl = draw_on_gl(world, items);
-    SceneAccess access(world);
+    const std::vector<uvec4> on_gl = draw_on_gl(world, light_tree, items);
+    SceneAccess access(world, &light_tree);
     std::uint32_t other_light = 0, other_pmf = 0, other_pdf = 0;
     for (std::size_t i = 0; i < items.size(); ++i) {
         const vec3 position = row_xyz(items[i].position), normal = row_xyz(items[i].normal);

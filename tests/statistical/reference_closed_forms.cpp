@@ -6,7 +6,6 @@
 
 #include "support/brdf_oracle.h"
 #include "support/reference_run.h"
-#include "world/light_tree.h"
 
 namespace tarn {
 namespace {
@@ -215,8 +214,7 @@ Furnace measure_furnace(const Material& material, double angle_deg, ReferenceSet
         toy.add_quad(lamp, {-2.0f, 1.8f, -1.0f}, {1.0f, 0, 0}, {0, 0, 2.0f});
         toy.add_quad(lamp, {-3.0f, 0.5f, 0.2f}, {0, 1.0f, 0}, {0, 0, 1.0f});
     }
-    World world = build_world(toy.scene, even_sky(glm::vec3(1.0f)));
-    update_light_tree(world);
+    const World world = build_world(toy.scene, even_sky(glm::vec3(1.0f)));
     const double angle = angle_deg * DOUBLE_PI / 180.0;
     const auto camera =
         small_settings(world, glm::dvec3(std::sin(angle), std::cos(angle), 0.0), glm::dvec3(0.0), 1.0);

@@ -8,7 +8,6 @@
 #include "core/statistics.h"
 #include "support/light_scenes.h"
 #include "support/reference_run.h"
-#include "world/light_tree.h"
 
 namespace tarn {
 namespace {
@@ -108,8 +107,7 @@ TEST(ReferenceStrategies, lights_drawn_by_the_tree_light_as_much_as_by_power) {
     lights.add_lights(200, true);
     lights.toy().add_quad(lights.toy().add_material(lambert_material(glm::vec3(0.5f))), {-6, -2, -6},
                           {0, 0, 12}, {12, 0, 0});
-    World world = build_world(lights.scene());
-    update_light_tree(world);
+    const World world = build_world(lights.scene());
     ReferenceSettings s = small_settings(world, {0, 2, 6}, {0, -1, 0}, 60.0);
     s.spp = 2048;
     s.direct_only = true;

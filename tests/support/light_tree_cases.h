@@ -19,13 +19,23 @@ struct Receiver {
     vec3 normal;
 };
 
-inline World build_lit_world(const Scene& scene) {
-    World world = build_world(scene);
-    update_light_tree(world);
+// A world and a tree over its lights.
+struct LitWorld : World {
+    LightTree light_tree;
+};
+
+// Brings the tree up to date.
+inline void follow_lights(LitWorld& world) {
+    update_light_tree(world.light_tree, world.lights);
+}
+
+inline LitWorld build_lit_world(const Scene& scene) {
+    LitWorld world{build_world(scene), {}};
+    follow_lights(world);
     return world;
 }
 
-inline World build_random_world(std::uint64_t seed, int count, bool directional = true) {
+inline LitWorld build_random_world(std::uint64_t seed, int count, bool directional = true) {
     LightScene lights(seed);
     lights.add_lights(count, directional);
     return build_lit_world(lights.scene());
@@ -43,8 +53,8 @@ inline Receiver draw_point(const World& world, Draws& draws) {
     return point;
 }
 
-inline std::vector<float> list_pmf(const World& world, const Receiver& point) {
-    SceneAccess access(world);
+inline std::vector<float> list_pmf(const LitWorld& world, const Receiver& point) {
+    SceneAccess access(world, &world.light_tree);
     std::vector<float> pmf(world.lights.count);
     for (std::uint32_t i = 0; i < world.lights.count; ++i) {
         pmf[i] = access.light_tree_pmf(i, point.position, point.normal);
@@ -59,7 +69,7 @@ inline double sum_of(const std::vector<float>& values) {
 }
 
 // The probabilities of all lights, at some points.
-inline void expect_sums_to_one(const World& world) {
+inline void expect_sums_to_one(const LitWorld& world) {
     Draws draws(7);
     for (int i = 0; i < 20; ++i) {
         EXPECT_NEAR(sum_of(list_pmf(world, draw_point(world, draws))), 1.0, 1e-5);

@@ -23,7 +23,7 @@ using namespace test;
 
 TEST(LightTree, ProbabilitiesSumToOneAtAnyPoint) {
     for (const int count : {4, 8, 60, 1000}) {
-        const World world = build_random_world(std::uint64_t(count), count);
+        const LitWorld world = build_random_world(std::uint64_t(count), count);
         Draws draws(1);
         for (int i = 0; i < 50; ++i) {
             EXPECT_NEAR(sum_of(list_pmf(world, draw_point(world, draws))), 1.0, 1e-5) << count;
@@ -37,9 +37,9 @@ DiscreteSample draw_light(SceneAccess& access, const Receiver& point, std::uint3
 }
 
 // p value of "draws at this point follow `pmf`".
-double draws_p_value(const World& world, const Receiver& point, const std::vector<float>& pmf) {
+double draws_p_value(const LitWorld& world, const Receiver& point, const std::vector<float>& pmf) {
     constexpr std::uint32_t DRAW_COUNT = 200'000;
-    SceneAccess access(world);
+    SceneAccess access(world, &world.light_tree);
     std::vector<double> observed(pmf.size()), expected(pmf.size());
     for (std::size_t i = 0; i < pmf.size(); ++i) expected[i] = double(pmf[i]) * DRAW_COUNT;
     for (std::uint32_t i = 0; i < DRAW_COUNT; ++i) ++observed[draw_light(access, point, i).index];
@@ -49,7 +49,7 @@ double draws_p_value(const World& world, const Receiver& point, const std::vecto
 constexpr int POINT_COUNT = 8;
 
 TEST(LightTree, DrawsFollowTheirProbabilities) {
-    const World world = build_random_world(5, 200);
+    const LitWorld world = build_random_world(5, 200);
     Draws draws(2);
     for (int i = 0; i < POINT_COUNT; ++i) {
         const Receiver point = draw_point(world, draws);
@@ -59,8 +59,8 @@ TEST(LightTree, DrawsFollowTheirProbabilities) {
 }
 
 // The light's way down, and a wrong copy of its probability that forgets what was decided at one level.
-float pmf_without_level(const World& world, std::uint32_t light, const Receiver& point, int forgotten) {
-    SceneAccess access(world);
+float pmf_without_level(const LitWorld& world, std::uint32_t light, const Receiver& point, int forgotten) {
+    SceneAccess access(world, &world.light_tree);
     const LightTree& tree = world.light_tree;
     float pmf = 1.0f;
     int height = 0;
@@ -73,7 +73,7 @@ float pmf_without_level(const World& world, std::uint32_t light, const Receiver&
 }
 
 TEST(LightTree, NegativeControlAProbabilityWithoutOneLevelFails) {
-    const World world = build_random_world(5, 200, false);
+    const LitWorld world = build_random_world(5, 200, false);
     Draws draws(2);
     const Receiver point{draws.unit_vector(), draws.unit_vector()};
     for (const int forgotten : {-1, 0, 2}) {
@@ -90,8 +90,8 @@ TEST(LightTree, NegativeControlAProbabilityWithoutOneLevelFails) {
 }
 
 TEST(LightTree, ADrawReportsTheProbabilityThatItsLightHas) {
-    const World world = build_random_world(6, 300);
-    SceneAccess access(world);
+    const LitWorld world = build_random_world(6, 300);
+    SceneAccess access(world, &world.light_tree);
     Draws draws(3);
     for (std::uint32_t i = 0; i < 5000; ++i) {
         const Receiver point = draw_point(world, draws);
@@ -116,8 +116,8 @@ float irradiance_from(SceneAccess& access, std::uint32_t light, vec2 u, const Re
 
 // Pairs of point and light where light arrives though the tree says that it is never drawn. `seen` counts the
 // pairs where light arrives.
-int count_lost_lights(const World& world, std::uint64_t seed, int& seen) {
-    SceneAccess access(world);
+int count_lost_lights(const LitWorld& world, std::uint64_t seed, int& seen) {
+    SceneAccess access(world, &world.light_tree);
     Draws draws(seed);
     int lost = 0;
     for (int i = 0; i < 60; ++i) {
@@ -145,7 +145,7 @@ TEST(LightTree, EveryLightThatContributesCanBeDrawn) {
 
 // Applies `change` to each inner node and leaf but the root.
 template <class Change>
-void change_nodes(World& world, const Change& change) {
+void change_nodes(LitWorld& world, const Change& change) {
     for (std::uint32_t node = 2; node < world.light_tree.node_count; ++node) {
         glm::uvec4* rows = &world.light_tree.rows[std::size_t(node) * LIGHT_TREE_NODE_ROWS];
         LightTreeNode unpacked = unpack_light_tree_node(rows[0], rows[1]);
@@ -156,7 +156,7 @@ void change_nodes(World& world, const Change& change) {
 
 TEST(LightTree, NegativeControlBoundsThatAreTooNarrowLoseLights) {
     int seen = 0;
-    World world = build_random_world(3, 40);
+    LitWorld world = build_random_world(3, 40);
     change_nodes(world, [](LightTreeNode& node) { node.radius = 0.0f; });
     EXPECT_GT(count_lost_lights(world, 3, seen), 0) << "spheres shrunk to their centres";
     world = build_random_world(3, 40);
@@ -176,8 +176,8 @@ TEST(LightTree, LightsAtTheHorizonAreNotLostToRounding) {
         lights.add_punctual(LightKind::POINT);
         const MaterialIndex lamp = lights.toy().add_material(emissive_material(vec3(1.0f)));
         lights.toy().add_quad(lamp, {0, 0, 0}, {1e-3f, 0, 0}, {0, 0, -1e-3f});  // faces +Y
-        const World world = build_lit_world(lights.scene());
-        SceneAccess access(world);
+        const LitWorld world = build_lit_world(lights.scene());
+        SceneAccess access(world, &world.light_tree);
         for (std::uint32_t light = 0; light < world.lights.count; ++light) {
             const vec3 place = access.load_light(light).position;
             const float distance = float(std::pow(10.0, draws.uniform(-2.0, 4.0)));
@@ -229,8 +229,8 @@ double enumerate_variance(SceneAccess& access, const Receiver& point) {
 }
 
 TEST(LightTree, TheMeanOfItsEstimatesIsTheSumOverAllLights) {
-    const World world = build_random_world(8, 120);
-    SceneAccess access(world);
+    const LitWorld world = build_random_world(8, 120);
+    SceneAccess access(world, &world.light_tree);
     Draws draws(5);
     for (int i = 0; i < POINT_COUNT; ++i) {
         const Receiver point{vec3(draws.unit_vector()) * 3.0f, draws.unit_vector()};
@@ -256,7 +256,7 @@ TEST(LightTree, TwoSmallLightsAreDrawnInProportionToTheIrradianceTheyBring) {
         const Material lamp = emissive_material(vec3(float(3.0 / length(area))));    // 3 W/sr
         toy.add_instance(toy.add_mesh(toy.add_material(lamp), {vec3(0.0f), a, b}),
                          glm::translate(glm::dmat4(1.0), places[1]));
-        const World world = build_lit_world(toy.scene);
+        const LitWorld world = build_lit_world(toy.scene);
         const glm::dvec3 place = draws.unit_vector(), normal = draws.unit_vector();
         double irradiances[2], least_cosine = 1.0;
         for (int k = 0; k < 2; ++k) {
@@ -285,8 +285,8 @@ TEST(LightTree, InAHallOfLampsItsVarianceIsAQuarterOfThatByPowerAtMost) {
         corners.insert(corners.end(), {place, place + vec3(0.1f, 0, 0), place + vec3(0, 0, 0.1f)});
     }
     toy.add_instance(toy.add_mesh(lamp, corners));
-    const World world = build_lit_world(toy.scene);
-    SceneAccess access(world);
+    const LitWorld world = build_lit_world(toy.scene);
+    SceneAccess access(world, &world.light_tree);
     const Receiver point{vec3(0.3f, -2.0f, 0.2f), vec3(0.0f, 1.0f, 0.0f)};
     const RunningMoments by_tree =
         estimate(access, point, [&](std::uint32_t index) { return draw_light(access, point, index); });
@@ -301,8 +301,8 @@ TEST(LightTree, InAHallOfLampsItsVarianceIsAQuarterOfThatByPowerAtMost) {
 }
 
 TEST(LightTree, ACandidatesDensityIsThatOfItsLightTimesOneOverItsArea) {
-    const World world = build_random_world(9, 40);
-    SceneAccess access(world);
+    const LitWorld world = build_random_world(9, 40);
+    SceneAccess access(world, &world.light_tree);
     Draws draws(6);
     const Receiver point = draw_point(world, draws);
     for (std::uint32_t i = 0; i < 1000; ++i) {

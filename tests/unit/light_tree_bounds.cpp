@@ -31,8 +31,8 @@ bool is_outside_cone(const LightTreeNode& node, const Light& light) {
 }
 
 // Walks down and compares each node with every light below it; returns those lights.
-std::vector<std::uint32_t> check_node(const World& world, std::uint32_t index, Violations& violations) {
-    SceneAccess access(world);
+std::vector<std::uint32_t> check_node(const LitWorld& world, std::uint32_t index, Violations& violations) {
+    SceneAccess access(world, &world.light_tree);
     const LightTreeNode node = access.load_light_tree_node(index);
     const std::uint32_t link = node.link & LIGHT_TREE_INDEX_MASK;
     std::vector<std::uint32_t> below;
@@ -58,7 +58,7 @@ std::vector<std::uint32_t> check_node(const World& world, std::uint32_t index, V
     return below;
 }
 
-void expect_sound(const World& world) {
+void expect_sound(const LitWorld& world) {
     Violations violations;
     std::vector<std::uint32_t> lights = check_node(world, 0, violations);
     EXPECT_EQ(violations.place, 0);
@@ -76,7 +76,7 @@ TEST(LightTree, EachNodeHoldsAllThatIsBelowIt) {
 }
 
 TEST(LightTree, TheTreeDoesNotDependOnThreads) {
-    const World all = build_random_world(12, 6000);
+    const LitWorld all = build_random_world(12, 6000);
     const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
     EXPECT_EQ(build_random_world(12, 6000).light_tree.rows, all.light_tree.rows);
 }
@@ -98,20 +98,20 @@ LightScene make_movable() {
 
 TEST(LightTree, AFittedTreeHoldsWhatMovedAndIsBuiltNoMore) {
     LightScene lights = make_movable();
-    World world = build_lit_world(lights.scene());
+    LitWorld world = build_lit_world(lights.scene());
     Draws draws(8);
     for (int step = 0; step < 10; ++step) {
         const LightTree before = world.light_tree;
         move_some(lights, draws);
         update_world(world, lights.scene(), -1.0);
-        update_light_tree(world);
+        follow_lights(world);
         EXPECT_EQ(world.light_tree.structure_revision, before.structure_revision);
-        EXPECT_EQ(world.light_tree.revision, before.revision + 1);
+        EXPECT_EQ(world.light_tree.changes.revision(), before.changes.revision() + 1);
         EXPECT_EQ(world.light_tree.leaves, before.leaves);
         expect_sound(world);
         expect_sums_to_one(world);
         // The boxes, if not their order, are those of a tree built anew.
-        const World fresh = build_lit_world(lights.scene());
+        const LitWorld fresh = build_lit_world(lights.scene());
         const vec3 shift = vec3(fresh.origin_ws - world.origin_ws);
         const LightBounds &fitted = world.light_tree.bounds[0], &built = fresh.light_tree.bounds[0];
         EXPECT_LT(length(fitted.lower - built.lower - shift), 1e-5f);
@@ -121,55 +121,56 @@ TEST(LightTree, AFittedTreeHoldsWhatMovedAndIsBuiltNoMore) {
 
 TEST(LightTree, OnlyTheRowsThatItNamesWereWritten) {
     LightScene lights = make_movable();
-    World world = build_lit_world(lights.scene());
+    LitWorld world = build_lit_world(lights.scene());
     std::vector<glm::uvec4> copy = world.light_tree.rows;
-    Draws draws(9);
+    ChangeLog::Cursor reader;
+    EXPECT_TRUE(world.light_tree.changes.read(reader).everything);
     (*lights.scene().nodes[5].matrix)[3].y += 0.5;
     ++lights.scene().revision;
     update_world(world, lights.scene(), -1.0);
-    update_light_tree(world);
+    follow_lights(world);
     std::size_t written = 0;
-    for (const IndexRange& range : world.light_tree.changed) {
+    for (const IndexRange& range : world.light_tree.changes.read(reader).ranges) {
         for (std::uint32_t row = range.first; row < range.last; ++row) copy[row] = world.light_tree.rows[row];
         written += range.last - range.first;
     }
     EXPECT_EQ(copy, world.light_tree.rows);
     EXPECT_GT(written, 0u);
     EXPECT_LT(written, world.light_tree.rows.size());
-    update_light_tree(world);
-    EXPECT_TRUE(world.light_tree.changed.empty());
+    follow_lights(world);
+    EXPECT_FALSE(world.light_tree.changes.has_news(reader));
 }
 
 TEST(LightTree, UpdatesThatItMissedAreMadeUpFor) {
     LightScene lights = make_movable();
-    World every = build_lit_world(lights.scene());
-    World last = every;
+    LitWorld every = build_lit_world(lights.scene());
+    LitWorld last = every;
     Draws draws(10);
     for (int step = 0; step < 3; ++step) {
         move_some(lights, draws);
         update_world(every, lights.scene(), -1.0);
-        update_light_tree(every);
+        follow_lights(every);
         update_world(last, lights.scene(), -1.0);
     }
-    update_light_tree(last);
+    follow_lights(last);
     EXPECT_EQ(last.light_tree.rows, every.light_tree.rows);
 }
 
 TEST(LightTree, ItIsBuiltAnewWhereLightsComeAndGo) {
     LightScene lights = make_movable();
-    World world = build_lit_world(lights.scene());
+    LitWorld world = build_lit_world(lights.scene());
     const std::uint64_t before = world.light_tree.structure_revision;
     lights.scene().light_nodes.erase(lights.scene().light_nodes.begin() + 3);
     ++lights.scene().revision;
     update_world(world, lights.scene(), -1.0);
-    update_light_tree(world);
+    follow_lights(world);
     EXPECT_EQ(world.light_tree.structure_revision, before + 1);
     expect_sound(world);
     expect_sums_to_one(world);
     lights.scene().lights[5].kind = LightKind::DIRECTIONAL;  // the same light leaves the tree
     ++lights.scene().revision;
     update_world(world, lights.scene(), -1.0);
-    update_light_tree(world);
+    follow_lights(world);
     expect_sound(world);
     expect_sums_to_one(world);
 }

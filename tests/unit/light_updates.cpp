@@ -16,9 +16,24 @@ using namespace test;
 
 struct Revisions {
     explicit Revisions(const WorldLights& lights)
-        : order(lights.order_revision), structure(lights.structure_revision), any(lights.revision) {}
+        : order(lights.order_revision),
+          structure(lights.structure_revision),
+          any(lights.changes.revision()) {}
     friend bool operator==(const Revisions&, const Revisions&) = default;
     std::uint64_t order, structure, any;
+};
+
+using Ranges = std::vector<IndexRange>;
+
+// One who has seen the lights as they were, and looks again.
+class Reader {
+  public:
+    explicit Reader(const WorldLights& lights) : lights_(lights) { look(); }
+    Changes look() { return lights_.changes.read(cursor_); }
+
+  private:
+    const WorldLights& lights_;
+    ChangeLog::Cursor cursor_;
 };
 
 // ---- Nothing, or only something, moves
@@ -27,15 +42,15 @@ struct Revisions {
 TEST(LightUpdates, WhereNothingMovedNothingIsWrittenAndNoRevisionGrows) {
     MovableScene movable;
     World world = build_world(movable.scene());
-    EXPECT_EQ(world.lights.changed, (std::vector<IndexRange>{{0, world.lights.count}}));
+    Reader reader(world.lights);
     const Revisions before(world.lights);
     const std::vector<glm::uvec4> rows = world.lights.rows;
     update_world(world, movable.scene(), -1.0);  // not even edited
     EXPECT_EQ(Revisions(world.lights), before);
-    EXPECT_TRUE(world.lights.changed.empty());
+    EXPECT_TRUE(reader.look().empty());
     movable.update(world);  // edited, but the same
     EXPECT_EQ(Revisions(world.lights), before);
-    EXPECT_TRUE(world.lights.changed.empty());
+    EXPECT_TRUE(reader.look().empty());
     EXPECT_EQ(world.lights.rows, rows);
 }
 
@@ -43,6 +58,7 @@ TEST(LightUpdates, ARigidMotionWritesOnlyTheTrianglesOfItsInstance) {
     MovableScene movable;
     World world = build_world(movable.scene());
     const WorldLights before = world.lights;
+    Reader reader(world.lights);
     for (const int lamp : {3, 4, 9}) {
         Transform& local = movable.node(movable.lamp_nodes[std::size_t(lamp)]).local;
         local.translation.y += 1.0;
@@ -50,11 +66,11 @@ TEST(LightUpdates, ARigidMotionWritesOnlyTheTrianglesOfItsInstance) {
     }
     movable.update(world);
     const std::uint32_t first = before.punctual_count;
-    const std::vector<IndexRange> moved = {{first + 3 * LAMP_TRIANGLES, first + 5 * LAMP_TRIANGLES},
-                                           {first + 9 * LAMP_TRIANGLES, first + 10 * LAMP_TRIANGLES}};
-    EXPECT_EQ(world.lights.changed, moved);
+    const Ranges moved = {{first + 3 * LAMP_TRIANGLES, first + 5 * LAMP_TRIANGLES},
+                          {first + 9 * LAMP_TRIANGLES, first + 10 * LAMP_TRIANGLES}};
+    EXPECT_EQ(reader.look().ranges, moved);
     EXPECT_EQ(world.lights.structure_revision, before.structure_revision);
-    EXPECT_EQ(world.lights.revision, before.revision + 1);
+    EXPECT_EQ(world.lights.changes.revision(), before.changes.revision() + 1);
     EXPECT_EQ(world.lights.alias_rows, before.alias_rows);
     expect_as_built(world, movable.scene());
 }
@@ -63,9 +79,10 @@ TEST(LightUpdates, APunctualLightMovesAlone) {
     MovableScene movable;
     World world = build_world(movable.scene());
     const Revisions before(world.lights);
+    Reader reader(world.lights);
     movable.node(movable.scene().light_nodes[1]).local.translation.z += 2.0;
     movable.update(world);
-    EXPECT_EQ(world.lights.changed, (std::vector<IndexRange>{{1, 2}}));
+    EXPECT_EQ(reader.look().ranges, (Ranges{{1, 2}}));
     EXPECT_EQ(world.lights.structure_revision, before.structure);
     expect_as_built(world, movable.scene());
 }
@@ -73,6 +90,7 @@ TEST(LightUpdates, APunctualLightMovesAlone) {
 TEST(LightUpdates, NotedMovesComeToTheSameAsAnEdit) {
     MovableScene movable;
     World noted = build_world(movable.scene()), edited = noted;
+    Reader noted_reader(noted.lights), edited_reader(edited.lights);
     test::Draws draws(3);
     for (int step = 0; step < 5; ++step) {
         Scene& scene = movable.scene();
@@ -91,7 +109,7 @@ TEST(LightUpdates, NotedMovesComeToTheSameAsAnEdit) {
         edited.scene_revision = copy.revision - 1;
         update_world(edited, copy, -1.0);
         EXPECT_EQ(noted.lights.rows, edited.lights.rows) << step;
-        EXPECT_EQ(noted.lights.changed, edited.lights.changed) << step;
+        EXPECT_EQ(noted_reader.look().ranges, edited_reader.look().ranges) << step;
         EXPECT_EQ(noted.instance_rows, edited.instance_rows) << step;
         EXPECT_EQ(noted.lights.structure_revision, edited.lights.structure_revision) << step;
     }
@@ -111,14 +129,23 @@ TEST(LightUpdates, AMoveThatIsNotNotedIsNotSeenAndOneThatIsForgottenIs) {
     expect_as_built(world, movable.scene());
 }
 
-TEST(LightUpdates, TheNextUpdateForgetsWhatTheLastOneWrote) {
+TEST(LightUpdates, AReaderThatLetsUpdatesPassIsToldOfAllOfThem) {
     MovableScene movable;
     World world = build_world(movable.scene());
-    movable.node(movable.lamp_nodes[0]).local.translation.y += 1.0;
-    movable.update(world);
-    EXPECT_FALSE(world.lights.changed.empty());
+    Reader reader(world.lights);
+    for (const std::size_t lamp : {7u, 0u}) {
+        movable.node(movable.lamp_nodes[lamp]).local.translation.y += 1.0;
+        movable.update(world);
+    }
     update_world(world, movable.scene(), -1.0);
-    EXPECT_TRUE(world.lights.changed.empty());
+    const std::uint32_t first = world.lights.punctual_count, seventh = first + 7 * LAMP_TRIANGLES;
+    EXPECT_EQ(reader.look().ranges,
+              (Ranges{{first, first + LAMP_TRIANGLES}, {seventh, seventh + LAMP_TRIANGLES}}));
+    movable.scene().light_nodes.pop_back();
+    movable.update(world);
+    movable.node(movable.lamp_nodes[3]).local.translation.y += 1.0;
+    movable.update(world);
+    EXPECT_TRUE(reader.look().everything) << "a light went";
 }
 
 // ---- Powers
@@ -172,9 +199,10 @@ TEST(LightUpdates, ADimmedLightChangesItsRowAndTheTable) {
     MovableScene movable;
     World world = build_world(movable.scene());
     const WorldLights before = world.lights;
+    Reader reader(world.lights);
     movable.scene().lights[1].intensity = glm::vec3(0.5f);
     movable.update(world);
-    EXPECT_EQ(world.lights.changed, (std::vector<IndexRange>{{1, 2}}));
+    EXPECT_EQ(reader.look().ranges, (Ranges{{1, 2}}));
     EXPECT_EQ(world.lights.structure_revision, before.structure_revision + 1);
     EXPECT_EQ(world.lights.order_revision, before.order_revision);
     expect_as_built(world, movable.scene());
@@ -184,11 +212,12 @@ TEST(LightUpdates, AnEditedEmissionReachesTheLightsOfItsMaterialAlone) {
     MovableScene movable;
     World world = build_world(movable.scene());
     const WorldLights before = world.lights;
+    Reader reader(world.lights);
     const std::uint64_t material_revision = world.material_revision;
     Material& material = at(movable.scene().materials, movable.lamp_material);
     material.emission = glm::vec3(100.0f, 1.0f, 1.0f);
     movable.update(world);
-    EXPECT_EQ(world.lights.changed, (std::vector<IndexRange>{{before.count - LAMP_TRIANGLES, before.count}}));
+    EXPECT_EQ(reader.look().ranges, (Ranges{{before.count - LAMP_TRIANGLES, before.count}}));
     EXPECT_EQ(world.material_revision, material_revision + 1);
     expect_as_built(world, movable.scene());
     material.emission = glm::vec3(0.0f);
@@ -204,7 +233,6 @@ TEST(LightUpdates, TheLastLightMayGo) {
     for (Material& material : movable.scene().materials) material.emission = glm::vec3(0.0f);
     movable.update(world);
     EXPECT_EQ(world.lights.count, 0u);
-    EXPECT_TRUE(world.lights.changed.empty());
     EXPECT_EQ(world.environment.width, 0u) << "a scene that went dark gets no sky";
 }
 
@@ -339,8 +367,9 @@ TEST(LightUpdates, ADeformingEmitterIsFollowedTriangleByTriangle) {
     add_animation(scene, node, AnimatedProperty::WEIGHTS, {0, 1}, 1);
     World world = build_world(scene);
     const std::uint32_t second = world.lights.punctual_count + 6 * LAMP_TRIANGLES + 1;
+    Reader reader(world.lights);
     update_world(world, scene, 0.5);
-    EXPECT_EQ(world.lights.changed, (std::vector<IndexRange>{{second, second + 1}}));
+    EXPECT_EQ(reader.look().ranges, (Ranges{{second, second + 1}}));
     expect_as_built(world, scene, 0.5);
     const Revisions before(world.lights);
     update_world(world, scene, 0.5);

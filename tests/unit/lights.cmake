@@ -1,4 +1,5 @@
-# The table of lights as it is made, as the scene moves and is edited, and the tree over it.
+# The table of lights as it is made, as the scene moves and is edited, how readers follow it, and the tree over it.
+tarn_test(change_log LABEL unit LIBRARIES tarn_world)
 tarn_test(light_sources LABEL unit LIBRARIES tarn_world)
 tarn_test(light_updates LABEL unit LIBRARIES tarn_world)
 tarn_test(light_tree LABEL unit LIBRARIES tarn_world)

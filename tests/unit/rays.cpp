@@ -191,17 +191,51 @@ TEST(Rays, bad_rays_are_occluded_and_counted_and_inactive_ones_visible) {
     }
 }
 
+// A batch says of each ray what asking for it alone says.
+TEST(Rays, batches_of_closest_hits_are_the_hits_of_each_ray) {
+    const World world = make_soup(true);
+    std::vector<RayRecord> rays = random_rays(5000);
+    for (std::size_t i = 0; i < rays.size(); i += 50) rays[i] = inactive_ray();
+    for (std::size_t i = 1; i < rays.size(); i += 50)
+        rays[i].origin.x = std::numeric_limits<float>::infinity();
+    const CoverageKey key{3, 4, RAY_SHADOW};
+    for (const auto& tracer : {create_embree_tracer(world), create_brute_force_tracer(world)}) {
+        std::vector<glm::uvec4> rows(rays.size() * HIT_ROWS);
+        const RayBatchResult result = tracer->trace_closest_hits(pack_rays(rays), rows, key);
+        EXPECT_EQ(result.traced, rays.size() * 48 / 50);
+        EXPECT_EQ(result.rejected, rays.size() / 50);
+        int hits = 0, wrong = 0;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const HitRecord record = unpack_hit(rows[i * HIT_ROWS], rows[i * HIT_ROWS + 1]);
+            const auto hit = tracer->trace_closest(rays[i], key);
+            const Hit expected = hit.value_or(Hit{});
+            const float distance = hit ? hit->t : i % 50 < 2 ? -1.0f : RAY_INFINITY;
+            hits += hit.has_value();
+            wrong += record.instance != expected.instance || record.primitive != expected.primitive ||
+                     record.barycentrics != expected.barycentrics || record.distance != distance ||
+                     record.direction != rays[i].direction;
+        }
+        EXPECT_GT(hits, 1000);
+        EXPECT_LT(hits, 4500);
+        EXPECT_EQ(wrong, 0);
+    }
+}
+
 TEST(Rays, answers_do_not_depend_on_the_number_of_threads) {
     const World world = make_soup(true);
     const std::vector<glm::uvec4> rows = pack_rays(random_rays(20000));
     std::vector<float> answers[2];
+    std::vector<glm::uvec4> hits[2];
     for (int threads = 1; threads <= 2; ++threads) {
         const WorkerLimit limit(threads);
         const auto embree = create_embree_tracer(world);
         answers[threads - 1].resize(rows.size() / RAY_ROWS);
         embree->trace_visibility(rows, answers[threads - 1], CoverageKey{1, 2, RAY_SHADOW});
+        hits[threads - 1].resize(rows.size() / RAY_ROWS * HIT_ROWS);
+        embree->trace_closest_hits(rows, hits[threads - 1], CoverageKey{1, 2, RAY_SHADOW});
     }
     EXPECT_EQ(answers[0], answers[1]);
+    EXPECT_EQ(hits[0], hits[1]);
 }
 
 TEST(Rays, ties_between_coincident_triangles_do_not_depend_on_the_number_of_threads) {

@@ -103,7 +103,7 @@ Json bench_scene(const BenchCommand& command, const BenchPlan& plan, const std::
     options.scene.scene = scene;
     RenderSession session(options);
     machine = session.describe_machine();
-    World& world = session.loaded().world;
+    const World& world = session.loaded().world;
     const CameraRecord camera = choose_camera(options.scene, session.loaded().scene, world);
     const ReferenceSettings reference =
         direct_truth_settings(options.scene.width, options.scene.height, camera, command.reference_spp);

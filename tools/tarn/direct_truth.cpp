@@ -4,7 +4,6 @@
 #include "core/error.h"
 #include "interrupt.h"
 #include "silhouettes.h"
-#include "world/light_tree.h"
 
 namespace tarn {
 namespace {
@@ -28,7 +27,6 @@ ReferenceSettings direct_truth_settings(int width_px, int height_px, const Camer
 }
 
 ReferenceResult find_direct_reference(RenderSession& session, const ReferenceSettings& settings) {
-    update_light_tree(session.loaded().world);
     return ReferenceCache(default_cache_folder()).get(session.loaded().world, session.tracer(), settings);
 }
 

@@ -10,7 +10,7 @@ namespace tarn {
 // light tree; stops at Ctrl-C.
 ReferenceSettings direct_truth_settings(int width_px, int height_px, const CameraRecord& camera, int spp);
 
-// Renders it or finds it in the cache of the user. Brings the world's light tree up to date.
+// Renders it or finds it in the cache of the user.
 ReferenceResult find_direct_reference(RenderSession& session, const ReferenceSettings& settings);
 
 // The same, ready for comparisons. Throws Error when interrupted.

@@ -12,7 +12,6 @@
 #include "interrupt.h"
 #include "output/output_files.h"
 #include "scene_options.h"
-#include "world/light_tree.h"
 
 namespace tarn {
 namespace {
@@ -80,7 +79,6 @@ void run_reference_command(ReferenceOptions& options) {
     settings.camera = choose_camera(options.scene, loaded.scene, loaded.world);
     settings.box_pixel_filter = options.pixel == "box";
     settings.cancel = &interrupt_flag();
-    if (settings.light_tree) update_light_tree(loaded.world);
     const ReferenceResult result = render_reference(loaded.world, *tracer, settings);
     write_picture(options.out, result);
     if (!options.json.empty()) write_report(options, result);

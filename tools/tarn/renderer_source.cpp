@@ -30,7 +30,7 @@ int scale_size(int size_px, double resolution) {
 
 }  // namespace
 
-RendererSource::RendererSource(World& world, const RayTracer& tracer, int width_px, int height_px)
+RendererSource::RendererSource(const World& world, const RayTracer& tracer, int width_px, int height_px)
     : world_(world), tracer_(tracer), width_px_(width_px), height_px_(height_px) {}
 
 Renderer& RendererSource::find_renderer(std::size_t method, double resolution) {

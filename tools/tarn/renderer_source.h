@@ -28,7 +28,7 @@ CameraRecord camera_before(const CameraRecord& arrived, const CameraMotion& moti
 class RendererSource : public FrameSource {
   public:
     // `world` and `tracer` must outlive it; needs a current GL context.
-    RendererSource(World& world, const RayTracer& tracer, int width_px, int height_px);
+    RendererSource(const World& world, const RayTracer& tracer, int width_px, int height_px);
 
     // What the next frames look at; a moving camera arrives there with the first frame that counts.
     void set_camera(const CameraRecord& camera, const CameraMotion& motion = {});
@@ -44,7 +44,7 @@ class RendererSource : public FrameSource {
     // Made when it is first asked for, and with it its history.
     Renderer& find_renderer(std::size_t method, double resolution);
 
-    World& world_;
+    const World& world_;
     const RayTracer& tracer_;
     int width_px_;
     int height_px_;

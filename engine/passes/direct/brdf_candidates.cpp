@@ -6,10 +6,9 @@
 
 namespace tarn {
 
-Rows trace_brdf_candidates(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,
-                           const World& world) {
+Rows trace_brdf_candidates(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot) {
     const Rows rays = frame.take_pixel_rows("direct/brdf_rays", RAY_ROWS, BufferUse::SHARED);
-    const Rows samples = frame.take_pixel_rows("direct/brdf_samples", 1, BufferUse::SHARED);
+    const Rows hits = frame.take_pixel_rows("direct/brdf_hits", HIT_ROWS, BufferUse::SHARED);
     CandidatesConstants constants{};
     constants.target_weights = glm::vec4(slot.target_weights, 0.0f);
     constants.sample_index = slot.index;
@@ -22,15 +21,15 @@ Rows trace_brdf_candidates(const FrameContext& frame, const GBuffer& gbuffer, co
     }
     frame.pass("direct/brdf_hits")
         .read_on_cpu(rays->buffer())
-        .write_on_cpu(samples->buffer())
+        .write_on_cpu(hits->buffer())
         .run_on_cpu([&] {
             const RayBatchResult result =
-                frame.tracer.trace_lights(rays->buffer().mapped<glm::uvec4>(),
-                                          samples->buffer().mapped<glm::uvec4>(), world, slot.shadow_key);
+                frame.tracer.trace_closest_hits(rays->buffer().mapped<glm::uvec4>(),
+                                                hits->buffer().mapped<glm::uvec4>(), slot.shadow_key);
             frame.rays.closest += result.traced;
             frame.rays.shadow.rejected += result.rejected;
         });
-    return samples;
+    return hits;
 }
 
 }  // namespace tarn

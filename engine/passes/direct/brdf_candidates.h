@@ -6,8 +6,7 @@
 
 namespace tarn {
 
-// One row a pixel: the light sample that the ray met; see RayTracer::trace_lights.
-Rows trace_brdf_candidates(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,
-                           const World& world);
+// HIT_ROWS rows a pixel: what the ray met.
+Rows trace_brdf_candidates(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot);
 
 }  // namespace tarn

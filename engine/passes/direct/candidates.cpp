@@ -18,7 +18,7 @@ Samples choose_candidates(const FrameContext& frame, const GBuffer& gbuffer, con
     constants.sample_index = slot.index;
     PassRecorder pass = frame.pass("direct/candidates");
     if (sources.tiles) pass.read(UNIT_PASS_A, sources.tiles);
-    if (sources.brdf_samples) pass.read(UNIT_PASS_B, sources.brdf_samples);
+    if (sources.brdf_hits) pass.read(UNIT_PASS_B, sources.brdf_hits);
     if (sources.tree != nullptr) pass.read_table(UNIT_PASS_C, *sources.tree);
     read_gbuffer(pass, gbuffer)
         .constants(constants)

@@ -10,7 +10,7 @@ namespace tarn {
 struct CandidateSources {
     Rows tiles;
     const RowBuffer* tree = nullptr;  // a table of the scene
-    Rows brdf_samples;
+    Rows brdf_hits;
 };
 
 Samples choose_candidates(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,

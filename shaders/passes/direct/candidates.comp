@@ -23,7 +23,9 @@
 #endif
 
 #ifdef TARN_BRDF_CANDIDATE
-layout(binding = UNIT_PASS_B) uniform usamplerBuffer brdf_samples;
+#include "lib/light_hits.glsl"
+
+layout(binding = UNIT_PASS_B) uniform usamplerBuffer brdf_hits;
 #endif
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -186,13 +188,12 @@ void offer_all(inout Stream s) {
 #endif
 
 #ifdef TARN_BRDF_CANDIDATE
-// The sample that the ray along the BRDF's direction met, one candidate more.
+// The light that the ray along the BRDF's direction met, one candidate more.
 void offer_brdf_candidate(inout Stream s) {
-    uvec4 row = texelFetch(brdf_samples, int(pixel_index(s.pixel)));
-    if (row.x == INVALID_INDEX) return;
+    int row = int(pixel_index(s.pixel) * HIT_ROWS);
     LightCandidate c;
-    c.drawn.light = row.x;
-    c.drawn.uv = vec2(uintBitsToFloat(row.y), uintBitsToFloat(row.z));
+    c.drawn = find_light_sample(unpack_hit(texelFetch(brdf_hits, row), texelFetch(brdf_hits, row + 1)));
+    if (c.drawn.light == INVALID_INDEX) return;
     IncidentLight incident = load_incident_light(c.drawn, s.receiver.point.position);
     c.pdf = selection_pdf(s, c.drawn, incident);
 #ifdef TARN_PLANT_FORGET_LIGHT_PDF

@@ -23,7 +23,7 @@ struct FrameBlock {
     vec4 frame_previous_forward;
     uvec4 frame_history;  // first previous instance; first row of the previous lights; first row of the light
                           // remap or INVALID_INDEX where every light kept its index; 0
-    uvec4 frame_tables;   // nodes of the light tree
+    uvec4 frame_tables;  // nodes of the light tree; first rows of the light lookup by instance and by slot; 0
 };
 
 // Places in the counter buffer; names in Renderer::read_counters.

@@ -171,6 +171,47 @@ FN RayRecord unpack_ray(uvec4 row0, uvec4 row1) {
     return ray;
 }
 
+// ---- Hit: what the ray tracer answers
+// --------------------------------------------------------------------------------------
+
+CONSTANT uint HIT_ROWS = 2u;
+
+struct HitRecord {
+    uint instance;      // INVALID_INDEX where nothing was met
+    uint primitive;     // within the mesh
+    vec2 barycentrics;  // weights of the second and third vertex
+    vec3 direction;     // of the ray, so that whoever reads the hit needs no other table
+    // In units of |direction|; RAY_INFINITY: the ray left the scene; negative: it was not traced.
+    float distance;
+};
+
+// The hit of a ray that met nothing, or that was not traced.
+FN HitRecord no_hit(vec3 direction, bool traced) {
+    HitRecord hit;
+    hit.instance = INVALID_INDEX;
+    hit.primitive = INVALID_INDEX;
+    hit.barycentrics = vec2(0.0f);
+    hit.direction = direction;
+    hit.distance = traced ? RAY_INFINITY : -1.0f;
+    return hit;
+}
+
+FN void pack_hit(HitRecord hit, OUT(uvec4) row0, OUT(uvec4) row1) {
+    row0 = uvec4(hit.instance, hit.primitive, floatBitsToUint(hit.barycentrics.x),
+                 floatBitsToUint(hit.barycentrics.y));
+    row1 = pack_row(hit.direction, floatBitsToUint(hit.distance));
+}
+
+FN HitRecord unpack_hit(uvec4 row0, uvec4 row1) {
+    HitRecord hit;
+    hit.instance = row0.x;
+    hit.primitive = row0.y;
+    hit.barycentrics = vec2(uintBitsToFloat(row0.z), uintBitsToFloat(row0.w));
+    hit.direction = row_xyz(row1);
+    hit.distance = uintBitsToFloat(row1.w);
+    return hit;
+}
+
 // ---- Camera
 // -------------------------------------------------------------------------------------------------------
 
