@@ -88,7 +88,11 @@ std::unique_ptr<Context> create_context(const ContextOptions& options) {
         case ContextKind::EGL:
             return create_egl_context(options);
         case ContextKind::GLFW:
+#ifdef TARN_HAS_GLFW
             return create_glfw_context(options);
+#else
+            throw Error("this library was built without GLFW (TARN_TOOLS): it opens no windows");
+#endif
         case ContextKind::OSMESA:
             return create_osmesa_context(options);
     }
