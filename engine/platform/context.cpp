@@ -44,6 +44,8 @@ const char* context_kind_name(ContextKind kind) {
             return "glfw";
         case ContextKind::OSMESA:
             return "osmesa";
+        case ContextKind::BORROWED:
+            return "borrowed";
     }
     return "unknown";
 }
@@ -59,10 +61,16 @@ Context::~Context() = default;
 // EGL, GLX and OSMesa each believe to be alone in a thread: one must let go before the next takes hold. And
 // each brings its own GL functions.
 void Context::make_current() {
+    // Somebody else's is current already, and whatever else is would be theirs too.
+    if (kind_ == ContextKind::BORROWED) return load_gl(*this, get_proc_address_);
     if (current_context != nullptr) std::exchange(current_context, nullptr)->unbind();
     bind();
     current_context = this;
     load_gl(*this, get_proc_address_);
+}
+
+bool Context::is_current() const {
+    return current_context == this;
 }
 
 void Context::stop() {
@@ -95,6 +103,8 @@ std::unique_ptr<Context> create_context(const ContextOptions& options) {
 #endif
         case ContextKind::OSMESA:
             return create_osmesa_context(options);
+        case ContextKind::BORROWED:
+            break;
     }
     throw Error("context kind {} is unknown", int(options.kind));
 }
