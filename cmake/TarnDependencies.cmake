@@ -9,7 +9,12 @@ if(NOT TARGET glm::glm)
 endif()
 find_package(fmt REQUIRED)
 find_package(TBB REQUIRED)
-find_package(embree 3 REQUIRED)
+find_package(embree 3 QUIET)
+if(NOT embree_FOUND)
+  find_package(embree 4 REQUIRED)
+endif()
+set(TARN_EMBREE_MAJOR ${embree_VERSION_MAJOR})
+set_property(TARGET embree APPEND PROPERTY INTERFACE_COMPILE_DEFINITIONS TARN_EMBREE_MAJOR=${TARN_EMBREE_MAJOR})
 find_package(OpenEXR REQUIRED)
 find_package(nlohmann_json REQUIRED)
 pkg_check_modules(TINYGLTF REQUIRED IMPORTED_TARGET tinygltf)
@@ -18,7 +23,7 @@ pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)
 
 if(TARN_TOOLS)
   find_package(CLI11 REQUIRED)
-  find_package(glfw3 REQUIRED)
+  find_package(glfw3 3.3 REQUIRED)
   pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
   pkg_check_modules(OSMESA REQUIRED osmesa)  # for --context osmesa, loaded at run time
   find_path(IMGUI_INCLUDE_DIR imgui.h PATH_SUFFIXES imgui REQUIRED)
@@ -46,6 +51,8 @@ add_custom_command(
   OUTPUT ${GLAD_DIR}/src/gl.c ${GLAD_DIR}/include/glad/gl.h
   COMMAND ${GLAD_GENERATOR} --quiet --api gl:core=4.5 --extensions GL_KHR_debug --reproducible
           --out-path ${GLAD_DIR} c
+  COMMAND ${CMAKE_COMMAND} -DDIR=${GLAD_DIR} -P ${PROJECT_SOURCE_DIR}/cmake/rename_glad.cmake
+  DEPENDS ${PROJECT_SOURCE_DIR}/cmake/rename_glad.cmake
   COMMENT "Generating the OpenGL 4.5 loader"
   VERBATIM)
 add_library(tarn_glad STATIC ${GLAD_DIR}/src/gl.c)

@@ -27,7 +27,7 @@ std::string describe_gl() {
 }
 
 void load_gl(Context& context, void (*(*get_proc_address)(const char*))()) {
-    const int version = gladLoadGL(get_proc_address);
+    const int version = tarn_gladLoadGL(get_proc_address);
     const char* kind = context_kind_name(context.kind());
     if (version == 0) throw Error("the {} context has no OpenGL functions", kind);
     if (version < MIN_GL_VERSION)
