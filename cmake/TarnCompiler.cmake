@@ -1,13 +1,17 @@
-# Compiler settings that every target shares.
-find_program(CCACHE ccache)
-if(CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
-  set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE})
-endif()
+# Compiler settings that every target shares. Where another project builds Tarn, its own settings stand.
+if(PROJECT_IS_TOP_LEVEL)
+  find_program(CCACHE ccache)
+  if(CCACHE)
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+    set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE})
+  endif()
 
-# -O3 for the tracer. NDEBUG is for libraries' own assertions; ours follow TARN_ASSERTIONS.
-set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O3 -g1 -DNDEBUG")
-set(CMAKE_C_FLAGS_RELWITHDEBINFO "-O2 -g1 -DNDEBUG")
+  # -O3 for the tracer. NDEBUG is for libraries' own assertions; ours follow TARN_ASSERTIONS.
+  set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O3 -g1 -DNDEBUG")
+  set(CMAKE_C_FLAGS_RELWITHDEBINFO "-O2 -g1 -DNDEBUG")
+elseif(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  message(WARNING "CMAKE_BUILD_TYPE is empty: Tarn is built without optimization and renders many times slower")
+endif()
 
 # No fused multiply-add: the shared shader math must round the same way on every machine.
 add_compile_options(-Wall -Wextra -ffp-contract=off)

@@ -32,8 +32,7 @@ bool has_same_text(const std::vector<ShaderStage>& a, const std::vector<ShaderSt
 }  // namespace
 
 ProgramLibrary::ProgramLibrary(std::filesystem::path root) : root_(std::move(root)) {
-    if (!std::filesystem::is_directory(root_))
-        throw Error("shader folder {} does not exist: set TARN_SHADER_DIR", root_.string());
+    if (!std::filesystem::is_directory(root_)) throw Error("shader folder {} does not exist", root_.string());
 }
 
 const Program& ProgramLibrary::compute(const std::string& path, const std::vector<std::string>& defines) {

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <utility>
 
+#include "core/data_files.h"
 #include "core/error.h"
 
 namespace tarn {
@@ -191,8 +192,9 @@ std::string translate_shader_log(const ShaderSource& source, std::string_view lo
 }
 
 std::filesystem::path get_shader_root() {
-    const char* overridden = std::getenv("TARN_SHADER_DIR");
-    return overridden != nullptr && *overridden != '\0' ? overridden : TARN_SHADER_DIR;
+    constexpr DataFolder SHADERS = {"shaders", "TARN_SHADER_DIR", TARN_SHADER_DIR};
+    // A folder that somebody else calls so does not count.
+    return locate_data_file(SHADERS, "passes").parent_path();
 }
 
 }  // namespace tarn

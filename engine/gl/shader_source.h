@@ -34,7 +34,8 @@ ShaderSource load_shader_source(const std::filesystem::path& root, const std::st
 // messages beyond the eighth are counted.
 std::string translate_shader_log(const ShaderSource& source, std::string_view log);
 
-// The folder of shaders: the environment variable TARN_SHADER_DIR, else the one that was compiled in.
+// The folder of shaders: what the environment variable TARN_SHADER_DIR says, else beside the program, under
+// ../share/tarn, or where it was built (core/data_files.h). Error that lists where it looked.
 std::filesystem::path get_shader_root();
 
 }  // namespace tarn

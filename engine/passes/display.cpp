@@ -61,11 +61,11 @@ const Texture2D& DisplayPass::record(FrameRecorder& frame, const Texture2D& radi
     return picture_;
 }
 
-void DisplayPass::present(const glm::ivec2& window_size_px) const {
+void DisplayPass::present(const glm::ivec2& window_size_px, unsigned framebuffer) const {
     const bool same_size = window_size_px == glm::ivec2(picture_.width_px(), picture_.height_px());
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
     // Row 0 of our pictures is the top one, row 0 of a window the bottom one.
-    glBlitNamedFramebuffer(framebuffer_.id(), 0, 0, 0, picture_.width_px(), picture_.height_px(), 0,
+    glBlitNamedFramebuffer(framebuffer_.id(), framebuffer, 0, 0, picture_.width_px(), picture_.height_px(), 0,
                            window_size_px.y, window_size_px.x, 0, GL_COLOR_BUFFER_BIT,
                            same_size ? GL_NEAREST : GL_LINEAR);
 }

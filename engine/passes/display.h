@@ -37,8 +37,8 @@ class DisplayPass {
     const Texture2D& record(FrameRecorder& frame, const Texture2D& radiance, const GBuffer& gbuffer,
                             DisplayView view, float exposure_ev);
 
-    // Draws the last picture over the whole default framebuffer, scaled to its size.
-    void present(const glm::ivec2& window_size_px) const;
+    // Draws the last picture over the whole of a framebuffer (0: the window's), scaled to its size.
+    void present(const glm::ivec2& window_size_px, unsigned framebuffer = 0) const;
 
   private:
     ProgramLibrary& programs_;

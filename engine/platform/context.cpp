@@ -27,7 +27,7 @@ std::string describe_gl() {
 }
 
 void load_gl(Context& context, void (*(*get_proc_address)(const char*))()) {
-    const int version = gladLoadGL(get_proc_address);
+    const int version = tarn_gladLoadGL(get_proc_address);
     const char* kind = context_kind_name(context.kind());
     if (version == 0) throw Error("the {} context has no OpenGL functions", kind);
     if (version < MIN_GL_VERSION)
@@ -44,6 +44,8 @@ const char* context_kind_name(ContextKind kind) {
             return "glfw";
         case ContextKind::OSMESA:
             return "osmesa";
+        case ContextKind::BORROWED:
+            return "borrowed";
     }
     return "unknown";
 }
@@ -59,10 +61,16 @@ Context::~Context() = default;
 // EGL, GLX and OSMesa each believe to be alone in a thread: one must let go before the next takes hold. And
 // each brings its own GL functions.
 void Context::make_current() {
+    // Somebody else's is current already, and whatever else is would be theirs too.
+    if (kind_ == ContextKind::BORROWED) return load_gl(*this, get_proc_address_);
     if (current_context != nullptr) std::exchange(current_context, nullptr)->unbind();
     bind();
     current_context = this;
     load_gl(*this, get_proc_address_);
+}
+
+bool Context::is_current() const {
+    return current_context == this;
 }
 
 void Context::stop() {
@@ -88,9 +96,15 @@ std::unique_ptr<Context> create_context(const ContextOptions& options) {
         case ContextKind::EGL:
             return create_egl_context(options);
         case ContextKind::GLFW:
+#ifdef TARN_HAS_GLFW
             return create_glfw_context(options);
+#else
+            throw Error("this library was built without GLFW (TARN_TOOLS): it opens no windows");
+#endif
         case ContextKind::OSMESA:
             return create_osmesa_context(options);
+        case ContextKind::BORROWED:
+            break;
     }
     throw Error("context kind {} is unknown", int(options.kind));
 }

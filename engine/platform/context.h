@@ -13,12 +13,13 @@ namespace tarn {
 class Window;
 
 enum class ContextKind {
-    EGL,     // no window: the headless default
-    GLFW,    // a window, visible or hidden
-    OSMESA,  // Mesa's off-screen library, loaded at run time: the fallback where EGL is missing
+    EGL,       // no window: the headless default
+    GLFW,      // a window, visible or hidden
+    OSMESA,    // Mesa's off-screen library, loaded at run time: the fallback where EGL is missing
+    BORROWED,  // somebody else's; see create_borrowed_context
 };
 
-// "egl", "glfw" or "osmesa".
+// "egl", "glfw", "osmesa" or "borrowed".
 const char* context_kind_name(ContextKind kind);
 
 // The kind of that name; Error for others.
@@ -50,6 +51,9 @@ class Context {
     // Makes this the current context of the calling thread, in place of any other, and points the GL
     // functions at its driver.
     void make_current();
+
+    // Whether it is the one that Tarn made current last on this thread.
+    bool is_current() const;
 
     // The window of a GLFW context, null for the others.
     virtual Window* window() { return nullptr; }
@@ -93,5 +97,9 @@ class Context {
 // everything on the calling thread, is as fast as 1. OSMesa starts llvmpipe once per process: its first
 // context decides.
 std::unique_ptr<Context> create_context(const ContextOptions& options);
+
+// The context that is current on this thread, made by somebody else, with the loader of its functions. It
+// must stay current while it is used, and must outlive what is returned. Error where it is not 4.5 core.
+std::unique_ptr<Context> create_borrowed_context(void (*(*get_proc_address)(const char*))());
 
 }  // namespace tarn

@@ -1,12 +1,11 @@
 // Owners of Embree's objects, and its errors as exceptions.
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <memory>
 #include <type_traits>
 
 #include "core/error.h"
+#include "rays/embree_api.h"
 
 namespace tarn {
 

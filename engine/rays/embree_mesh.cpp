@@ -29,7 +29,7 @@ void EmbreeMesh::create(RTCDevice device, const World& world, const WorldMesh& m
                         RTCFilterFunctionN filter) {
     scene_.reset(rtcNewScene(device));
     // The robust flag closes the gaps between neighbouring triangles; the context filter passes back faces.
-    rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+    rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST | EMBREE_QUERY_FILTER);
     if (mesh.triangle_count > 0) {
         geometry_.reset(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
         rtcSetGeometryIntersectFilterFunction(geometry_.get(), filter);

@@ -21,8 +21,7 @@ EmbreeSnapshot::EmbreeSnapshot(RTCDevice device, const World& world, const Stati
       is_filtered_(is_filtered),
       coverage_filter_(coverage_filter),
       top_(rtcNewScene(device)) {
-    rtcSetSceneFlags(top_.get(),
-                     RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION | RTC_SCENE_FLAG_DYNAMIC);
+    rtcSetSceneFlags(top_.get(), RTC_SCENE_FLAG_ROBUST | EMBREE_QUERY_FILTER | RTC_SCENE_FLAG_DYNAMIC);
     deforming_meshes_.resize(world.meshes.size());
     for (std::uint32_t i = 0; i < world.meshes.size(); ++i) {
         if (!world.meshes[i].deforms) continue;

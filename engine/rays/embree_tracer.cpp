@@ -20,7 +20,7 @@ namespace {
 
 // What filters need to know of the ray. Embree hands the context through to them.
 struct QueryContext {
-    RTCIntersectContext embree;  // first, since filters get a pointer to it
+    EmbreeContext embree;  // first, since filters get a pointer to it
     const World* world;
     const EmbreeSnapshot* snapshot;
     CoverageKey key;
@@ -109,12 +109,12 @@ class EmbreeTracer : public RayTracer {
                                      BackFaces back_faces) const override {
         if (classify_ray(ray) != RayState::TRACEABLE) return std::nullopt;
         QueryContext query = make_query(ray, key, snapshot_at(Moment::PRESENT));
-        if (back_faces == BackFaces::PASS) query.embree.filter = filter_back_faces;
         RTCRayHit ray_hit;
         fill_ray(ray_hit.ray, ray);
         ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         ray_hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-        rtcIntersect1(query.snapshot->scene(), &query.embree, &ray_hit);
+        intersect_one(query.snapshot->scene(), query.embree,
+                      back_faces == BackFaces::PASS ? filter_back_faces : nullptr, ray_hit);
         if (ray_hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
         return Hit{ray_hit.hit.instID[0], ray_hit.hit.primID, glm::vec2(ray_hit.hit.u, ray_hit.hit.v),
                    ray_hit.ray.tfar};
@@ -125,7 +125,7 @@ class EmbreeTracer : public RayTracer {
         QueryContext query = make_query(ray, key, snapshot_at(moment));
         RTCRay shadow;
         fill_ray(shadow, ray);
-        rtcOccluded1(query.snapshot->scene(), &query.embree, &shadow);
+        occlude_one(query.snapshot->scene(), query.embree, shadow);
         return shadow.tfar >= 0.0f;  // Embree answers with -infinity
     }
 
@@ -136,7 +136,7 @@ class EmbreeTracer : public RayTracer {
     QueryContext make_query(const RayRecord& ray, const CoverageKey& key,
                             const EmbreeSnapshot& snapshot) const {
         QueryContext query;
-        rtcInitIntersectContext(&query.embree);
+        init_context(query.embree);
         query.world = world_;
         query.snapshot = &snapshot;
         query.key = key;

@@ -106,8 +106,9 @@ TEST(ShaderSource, TheRootComesFromTheEnvironment) {
     const ShaderFolder folder;
     EXPECT_TRUE(std::filesystem::is_directory(get_shader_root()));
     const ScopedEnvironment choice("TARN_SHADER_DIR", folder.root().string());
-    EXPECT_EQ(get_shader_root(), folder.root());
+    EXPECT_THROW(get_shader_root(), Error) << "it holds no shaders";
     folder.write("passes/a.comp", "layout(local_size_x = 1) in;\nvoid main() {}\n");
+    EXPECT_EQ(get_shader_root(), folder.root());
     const auto context = create_context({});
     EXPECT_EQ(ProgramLibrary().compute("a").name(), "a");
 }

@@ -10,5 +10,5 @@ else()
 endif()
 add_test(NAME viewer_in_xvfb
          COMMAND ${VIEWER_DISPLAY} bash ${CMAKE_CURRENT_SOURCE_DIR}/viewer.sh $<TARGET_FILE:tarn>
-                 ${CMAKE_BINARY_DIR}/content/cornell.glb ${CMAKE_BINARY_DIR}/viewer_test)
+                 ${PROJECT_BINARY_DIR}/content/cornell.glb ${PROJECT_BINARY_DIR}/viewer_test)
 set_tests_properties(viewer_in_xvfb PROPERTIES LABELS gpu TIMEOUT 600 SKIP_RETURN_CODE 77)

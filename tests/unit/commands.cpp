@@ -191,6 +191,13 @@ TEST(Disappointment, ACameraOnANodeWithoutExtentIsNamed) {
                     "camera 0 'flat': axis z");
 }
 
+TEST(Disappointment, AnUnknownSceneSaysWhereItWasLookedFor) {
+    expect_one_line({"info", "nowhere"}, "share/tarn/content");
+    expect_one_line({"info", "nowhere"}, "TARN_CONTENT_DIR");
+    const TemporaryFolder folder;
+    expect_one_line({"flythrough", "--path", "nowhere", "--out", folder.file("fly")}, "TARN_FLYTHROUGH_DIR");
+}
+
 TEST(Disappointment, AnUnknownCameraListsThoseThatExist) {
     const TemporaryFolder folder;
     const Arguments reference = {

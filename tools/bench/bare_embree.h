@@ -2,13 +2,13 @@
 // measured against.
 #pragma once
 
-#include <embree3/rtcore.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <cstddef>
 #include <vector>
 
+#include "rays/embree_api.h"
 #include "rays/flush_denormals.h"
 #include "rays/ray_checks.h"
 
@@ -56,16 +56,16 @@ class BareEmbree {
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rays.size(), 512), [&](const auto& range) {
             const FlushDenormals flush;
             Context context{{}, this};
-            rtcInitIntersectContext(&context.embree);
+            init_context(context.embree);
             for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                rtcOccluded1(top_, &context.embree, &rays[i]);
+                occlude_one(top_, context.embree, rays[i]);
             }
         });
     }
 
   private:
     struct Context {
-        RTCIntersectContext embree;  // first, since the filter gets a pointer to it
+        EmbreeContext embree;  // first, since the filter gets a pointer to it
         const BareEmbree* self;
     };
 

@@ -5,6 +5,7 @@
 
 #include "bench/results.h"
 #include "bench/work_folder.h"
+#include "core/data_files.h"
 #include "core/error.h"
 #include "image_io/file.h"
 #include "image_io/image_io.h"
@@ -77,9 +78,20 @@ std::string embed(const Json& json) {
     return safe;
 }
 
-std::string join_scripts() {
+std::filesystem::path find_parts() {
+    constexpr DataFolder REPORT = {"report", "TARN_REPORT_DIR", TARN_REPORT_DIR};
+    return locate_data_file(REPORT, "page.html").parent_path();
+}
+
+// The library that draws the plots: an installed Tarn has a copy of its own.
+std::filesystem::path find_chart_library(const std::filesystem::path& parts) {
+    const std::filesystem::path own = parts / "lib" / "chart.min.js";
+    return std::filesystem::exists(own) ? own : TARN_CHART_JS;
+}
+
+std::string join_scripts(const std::filesystem::path& parts) {
     std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::directory_iterator(TARN_REPORT_DIR)) {
+    for (const auto& entry : std::filesystem::directory_iterator(parts)) {
         if (entry.path().extension() == ".js") files.push_back(entry.path());
     }
     std::sort(files.begin(), files.end());
@@ -92,7 +104,7 @@ std::string join_scripts() {
 void fill(std::string& page, const std::string& name, const std::string& text) {
     const std::string place = "@" + name + "@";
     const std::size_t at = page.find(place);
-    if (at == std::string::npos) throw Error("{}/page.html: has no {}", TARN_REPORT_DIR, place);
+    if (at == std::string::npos) throw Error("the report's page.html has no {}", place);
     page.replace(at, place.size(), text);
 }
 
@@ -115,7 +127,7 @@ ReportInput load_results(const std::filesystem::path& file_or_folder) {
 }
 
 void write_report(const std::filesystem::path& file, const std::vector<ReportInput>& inputs) {
-    const std::filesystem::path parts = TARN_REPORT_DIR;
+    const std::filesystem::path parts = find_parts();
     Json documents = Json::array(), pictures = Json::object();
     for (const ReportInput& input : inputs) {
         collect_pictures(input.results, input.folder, fmt::format("{}/", documents.size()), pictures);
@@ -123,8 +135,8 @@ void write_report(const std::filesystem::path& file, const std::vector<ReportInp
     }
     std::string page = load_text(parts / "page.html");
     // From the end of the page to its beginning: what was filled in is never searched.
-    fill(page, "PAGE_JS", join_scripts());
-    fill(page, "CHART_JS", load_text(TARN_CHART_JS));
+    fill(page, "PAGE_JS", join_scripts(parts));
+    fill(page, "CHART_JS", load_text(find_chart_library(parts)));
     fill(page, "PICTURES_JSON", embed(pictures));
     fill(page, "RESULTS_JSON", embed(documents));
     fill(page, "PAGE_CSS", load_text(parts / "page.css"));

@@ -6,6 +6,7 @@
 #include "bench/report.h"
 #include "bench/results.h"
 #include "commands.h"
+#include "core/data_files.h"
 #include "core/error.h"
 #include "flythrough_results.h"
 #include "flythrough_run.h"
@@ -21,12 +22,15 @@ struct FlythroughCommand {
     RenderOptions options;
     FlightPlan plan;
     std::string methods;  // empty: what the settings say
-    std::string path_file;
+    std::string path_file = "lantern_court";
     std::string out = "out/flythrough";
 };
 
-std::filesystem::path default_path_file() {
-    return std::filesystem::path(TARN_FLYTHROUGH_DIR) / "lantern_court.json";
+// The file that --path means: a path, or the bare name of one of the project's own.
+std::filesystem::path resolve_path_file(const std::filesystem::path& path) {
+    if (std::filesystem::is_regular_file(path) || path.has_parent_path() || path.has_extension()) return path;
+    constexpr DataFolder FLYTHROUGHS = {"flythroughs", "TARN_FLYTHROUGH_DIR", TARN_FLYTHROUGH_DIR};
+    return locate_data_file(FLYTHROUGHS, path.string() + ".json");
 }
 
 std::string word_of_direct(const RenderSettings& settings) {
@@ -103,8 +107,7 @@ void write_results(const FlythroughCommand& command, RenderSession& session, con
 }
 
 void run_flythrough(FlythroughCommand& command) {
-    const CameraPath path = load_camera_path(
-        command.path_file.empty() ? default_path_file() : std::filesystem::path(command.path_file));
+    const CameraPath path = load_camera_path(resolve_path_file(command.path_file));
     if (command.options.scene.scene.empty()) command.options.scene.scene = path.scene;
     if (command.options.scene.scene.empty()) throw Error("{}: names no scene; give one", command.path_file);
     FlightPlan& plan = command.plan;
@@ -152,9 +155,9 @@ void add_flythrough_command(CLI::App& app) {
     // The path says where from and when.
     sub->remove_option(sub->get_option("--camera"));
     sub->remove_option(sub->get_option("--time"));
-    sub->add_option(
-        "--path", command->path_file,
-        "Path of the camera, of lights and objects, a JSON file (default: through lantern_court)");
+    sub->add_option("--path", command->path_file,
+                    "Path of the camera, of lights and objects: a JSON file, or the name of an own path")
+        ->capture_default_str();
     sub->add_option("--out", command->out, "Folder for the pictures and report.json")->capture_default_str();
     sub->add_option("--methods", command->methods,
                     "Methods to compare, by their names in bench (default: the one that the settings give)");

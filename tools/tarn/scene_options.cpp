@@ -2,10 +2,10 @@
 
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <vector>
 
 #include "bench/text.h"
+#include "core/data_files.h"
 #include "core/error.h"
 #include "image_io/image_io.h"
 #include "scene/gltf_import.h"
@@ -119,10 +119,10 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
 
 std::filesystem::path resolve_scene_path(const std::filesystem::path& scene) {
     if (std::filesystem::exists(scene) || scene.has_parent_path() || scene.has_extension()) return scene;
-    const char* folder = std::getenv("TARN_CONTENT_DIR");
-    const std::filesystem::path own =
-        std::filesystem::path(folder != nullptr ? folder : TARN_CONTENT_DIR) / (scene.string() + ".glb");
-    return std::filesystem::exists(own) ? own : scene;
+    constexpr DataFolder CONTENT = {"content", "TARN_CONTENT_DIR", TARN_CONTENT_DIR};
+    if (const auto own = find_data_file(CONTENT, scene.string() + ".glb")) return *own;
+    throw Error("scene '{}' is neither a file nor a scene of Tarn's own: {}", scene.string(),
+                describe_data_places(CONTENT));
 }
 
 LoadedScene load_scene(const SceneOptions& options, const SceneEdit& edit) {

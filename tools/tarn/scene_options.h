@@ -36,7 +36,8 @@ CLI::Validator make_finite_range(double minimum, double maximum);
 void add_scene_options(CLI::App& command, SceneOptions& options);
 
 // The file that SCENE means: a path, or the bare name of one of the project's own scenes, which lie in the
-// folder TARN_CONTENT_DIR (environment variable, else where the build put them).
+// folder TARN_CONTENT_DIR (environment variable), else beside the program, under ../share/tarn, or where the
+// build put them. Throws Error that lists these where a bare name is none of them.
 std::filesystem::path resolve_scene_path(const std::filesystem::path& scene);
 
 struct LoadedScene {

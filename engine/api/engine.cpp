@@ -1,0 +1,212 @@
+// The engine and its views: the one file that knows the renderer.
+#include "tarn/engine.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "api/exposure.h"
+#include "api/gl_state.h"
+#include "api/guard.h"
+#include "api/scene_state.h"
+#include "api/settings_access.h"
+#include "core/data_files.h"
+#include "passes/display.h"
+#include "platform/context.h"
+#include "rays/ray_tracer.h"
+#include "renderer/renderer.h"
+
+namespace tarn::api {
+namespace {
+
+constexpr int MAX_SIZE_PX = 16384;
+
+std::unique_ptr<Context> open_context(const EngineOptions& options) {
+    if (options.gl_loader != nullptr) return create_borrowed_context(options.gl_loader);
+    ContextOptions context;
+    context.gl_threads = options.threads;
+    return create_context(context);
+}
+
+FrameReport describe_frame(const FrameOutput& output, const Renderer& renderer) {
+    FrameReport report;
+    report.frame_ms = output.timings.frame_ms;
+    for (const PassTiming& pass : output.timings.passes) report.passes.push_back({pass.name, pass.ms});
+    report.shadow_rays = output.shadow_rays.traced;
+    report.closest_rays = output.closest_rays;
+    report.counters = renderer.read_counters();
+    return report;
+}
+
+}  // namespace
+
+struct EngineState {
+    explicit EngineState(const EngineOptions& options)
+        : workers(options.threads), context(open_context(options)) {}
+
+    // What GL calls need around them: the engine's context, or the caller's state put aside.
+    std::optional<GlStateGuard> enter() {
+        if (context->kind() == ContextKind::BORROWED) return std::optional<GlStateGuard>(std::in_place);
+        if (!context->is_current()) context->make_current();
+        return std::nullopt;
+    }
+
+    WorkerLimit workers;
+    std::unique_ptr<Context> context;
+};
+
+Engine::Engine(const EngineOptions& options) {
+    guard([&] {
+        if (options.threads < 0) throw tarn::Error("threads is {}, it must be 0 or more", options.threads);
+        if (!options.data_folder.empty()) set_data_root(options.data_folder);
+        get_shader_root();
+        state_ = std::make_shared<EngineState>(options);
+    });
+}
+
+Engine::Engine(Engine&& other) noexcept = default;
+Engine& Engine::operator=(Engine&& other) noexcept = default;
+Engine::~Engine() = default;
+
+const std::string& Engine::device_name() const {
+    return state_->context->device_info().renderer;
+}
+
+// What turns a finished frame into a picture for the eye.
+struct Screen {
+    Screen(int width_px, int height_px) : pass(programs, width_px, height_px) {}
+
+    ProgramLibrary programs;
+    FrameRecorder recorder;
+    DisplayPass pass;
+    AutoExposure exposure;
+};
+
+struct ViewState final : SceneFollower {
+    ViewState(std::shared_ptr<EngineState> engine_state, std::shared_ptr<SceneState> scene_state,
+              int width_px, int height_px)
+        : engine(std::move(engine_state)), scene(std::move(scene_state)) {
+        const auto gl = engine->enter();
+        scene->update();
+        renderer = std::make_unique<Renderer>(scene->world, scene->find_tracer(), width_px, height_px);
+        scene->followers.push_back(this);
+    }
+    ~ViewState() override {
+        std::erase(scene->followers, this);
+        const auto gl = engine->enter();
+        last.reset();
+        screen.reset();
+        renderer.reset();
+    }
+    ViewState(const ViewState&) = delete;
+    ViewState& operator=(const ViewState&) = delete;
+
+    void follow_scene() override { renderer->update(); }
+
+    void render(const Frame& frame) {
+        scene->update();
+        FrameInput input;
+        input.camera =
+            make_record(frame.camera, scene->world, double(renderer->width_px()) / renderer->height_px());
+        input.frame = frame.number;
+        input.seed = frame.seed;
+        input.settings = SettingsAccess::values(frame.settings);
+        last.reset();
+        last.emplace(renderer->render(input));
+        ++rendered;
+    }
+
+    const FrameOutput& output() const {
+        if (!last) throw tarn::Error("the view has not rendered a frame yet");
+        return *last;
+    }
+
+    Picture read() const {
+        Image image = renderer->read_radiance(output().radiance);
+        return {image.width, image.height, std::move(image.values), describe_frame(*last, *renderer)};
+    }
+
+    const Texture2D& display(std::optional<float> exposure_ev) {
+        const FrameOutput& frame = output();
+        if (!screen) screen.emplace(renderer->width_px(), renderer->height_px());
+        const float ev = exposure_ev ? *exposure_ev : screen->exposure.follow(frame.radiance, rendered);
+        screen->recorder.begin();
+        const Texture2D& picture =
+            screen->pass.record(screen->recorder, frame.radiance, frame.gbuffer, DisplayView::RADIANCE, ev);
+        screen->recorder.end();
+        return picture;
+    }
+
+    std::shared_ptr<EngineState> engine;
+    std::shared_ptr<SceneState> scene;
+    std::unique_ptr<Renderer> renderer;
+    std::optional<FrameOutput> last;
+    std::uint64_t rendered = 0;  // frames
+    std::optional<Screen> screen;
+};
+
+View::View(const Engine& engine, const Scene& scene, int width_px, int height_px) {
+    guard([&] {
+        if (std::min(width_px, height_px) < 1 || std::max(width_px, height_px) > MAX_SIZE_PX) {
+            throw tarn::Error("the view is {} x {} pixels, it must have 1 to {} a side", width_px, height_px,
+                              MAX_SIZE_PX);
+        }
+        state_ = std::make_unique<ViewState>(engine.state_, scene.state_, width_px, height_px);
+    });
+}
+
+View::View(View&& other) noexcept = default;
+View& View::operator=(View&& other) noexcept = default;
+View::~View() = default;
+
+int View::width_px() const {
+    return state_->renderer->width_px();
+}
+
+int View::height_px() const {
+    return state_->renderer->height_px();
+}
+
+Picture View::render(const Frame& frame) {
+    return guard([&] {
+        const auto gl = state_->engine->enter();
+        state_->render(frame);
+        return state_->read();
+    });
+}
+
+FrameReport View::draw(const Frame& frame) {
+    return guard([&] {
+        const auto gl = state_->engine->enter();
+        state_->render(frame);
+        return describe_frame(state_->output(), *state_->renderer);
+    });
+}
+
+Picture View::read() const {
+    return guard([&] {
+        const auto gl = state_->engine->enter();
+        return state_->read();
+    });
+}
+
+unsigned View::texture(std::optional<float> exposure_ev) {
+    return guard([&] {
+        const auto gl = state_->engine->enter();
+        return state_->display(exposure_ev).id();
+    });
+}
+
+void View::present(int framebuffer_width_px, int framebuffer_height_px, std::optional<float> exposure_ev) {
+    guard([&] {
+        const auto gl = state_->engine->enter();
+        if (!gl) throw tarn::Error("the engine's own context has no window to present a picture in");
+        state_->display(exposure_ev);
+        state_->screen->pass.present({framebuffer_width_px, framebuffer_height_px}, gl->draw_framebuffer());
+    });
+}
+
+void View::reset_history() {
+    state_->renderer->reset_history();
+}
+
+}  // namespace tarn::api

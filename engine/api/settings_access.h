@@ -1,0 +1,13 @@
+// The engine's own settings behind the public ones.
+#pragma once
+
+#include "renderer/settings.h"
+#include "tarn/settings.h"
+
+namespace tarn::api {
+
+struct SettingsAccess {
+    static const RenderSettings& values(const Settings& settings);
+};
+
+}  // namespace tarn::api

@@ -1,0 +1,48 @@
+// What a view rendered, and what that cost.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tarn::api {
+
+struct PassTime {
+    std::string name;  // "direct/candidates"
+    double ms = 0.0;
+};
+
+// The cost of a frame.
+struct FrameReport {
+    double frame_ms = 0.0;         // wall clock, from the first command to the last answer
+    std::vector<PassTime> passes;  // in the order in which they ran
+    std::uint64_t shadow_rays = 0;
+    std::uint64_t closest_rays = 0;
+    std::map<std::string, std::uint64_t>
+        counters;  // what was dropped or clamped since the view was made, by name
+};
+
+struct Picture {
+    int width_px = 0;
+    int height_px = 0;
+    std::vector<float> rgb;  // [height][width][3]: linear radiance, row 0 on top
+    FrameReport report;
+
+    // The red, green and blue of a pixel; x from the left, y from the top.
+    const float* pixel(int x, int y) const {
+        return &rgb[3 * (std::size_t(y) * std::size_t(width_px) + std::size_t(x))];
+    }
+
+    // The exposure in EV that maps the log-average luminance to middle grey, within +-20.
+    float auto_exposure_ev() const;
+
+    // Writes the radiance as 32-bit floats. The file is written whole or not at all. Error that names it.
+    void write_exr(const std::filesystem::path& file) const;
+    // Writes 8 bits a channel: radiance times 2^exposure_ev, tone-mapped, sRGB; nullopt: automatic exposure.
+    void write_png(const std::filesystem::path& file, std::optional<float> exposure_ev = std::nullopt) const;
+};
+
+}  // namespace tarn::api

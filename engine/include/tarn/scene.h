@@ -1,0 +1,99 @@
+// A scene from a glTF file: what stands where, at one moment. Needs no GL.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tarn/camera.h"
+#include "tarn/values.h"
+
+namespace tarn::api {
+
+struct SceneOptions {
+    // Sky: equirectangular linear radiance, an .exr or .hdr file. Empty: none.
+    std::filesystem::path environment;
+    // Without such a file: an even sky of this radiance. nullopt: 1 where the scene has no light, else 0.
+    std::optional<float> sky;
+    int scene_index = -1;  // which of the file's scenes; -1: the file's own choice
+    double time_s = -1.0;  // as for Scene::move_to
+};
+
+// A node of the scene, such as a thing, a lamp or a group of them. Valid for the scene that gave it, as long
+// as that is.
+struct Node {
+    std::uint32_t index = 0xffffffffu;
+    bool operator==(const Node&) const = default;
+};
+
+enum class LightKind { POINT, SPOT, DIRECTIONAL };
+
+// A light without extent. Its node places it; spots and directional lights shine along the node's -Z.
+struct Light {
+    LightKind kind = LightKind::POINT;
+    Vec3 intensity{1.0, 1.0, 1.0};  // red, green, blue. Point, spot: W/sr; directional: irradiance, W/m^2
+    double inner_cone_rad = 0.0;    // spot: from its axis, where it begins to fade
+    double outer_cone_rad = 0.7853981633974483;  // and where it ends
+    double range_m = 0.0;                        // point, spot: nothing beyond; 0: unlimited
+};
+
+// Edits and moves take effect with the next frame of any view of the scene. Movable; views keep what they
+// need of it alive.
+class Scene {
+  public:
+    // Loads a .gltf or .glb file. Error that names the file and what is wrong with it.
+    static Scene load(const std::filesystem::path& file, const SceneOptions& options = {});
+
+    Scene(Scene&& other) noexcept;
+    Scene& operator=(Scene&& other) noexcept;
+    ~Scene();
+
+    const std::string& name() const;
+    // What holds all triangles at the moment for which the scene was loaded, metres, world space.
+    Box bounds() const;
+
+    // ---- Cameras, in the file's order. Where the scene moves them they are as of this moment.
+    std::size_t camera_count() const;
+    std::string camera_name(std::size_t index) const;
+    // Error where there is no such camera, or its node leaves it no direction.
+    Camera camera(std::size_t index) const;
+    Camera camera(const std::string& name) const;
+    // The first one; where there is none, a view of the whole for a picture of this width / height.
+    Camera default_camera(double aspect) const;
+
+    // ---- Time. All animations play at once, each in a loop.
+    double duration_s() const;  // of the longest animation; 0: nothing moves by itself
+    // Moves everything to a moment; < 0: the rest pose. Error for a time that is not finite.
+    void move_to(double time_s);
+
+    // ---- Nodes
+    std::size_t node_count() const;
+    std::string node_name(Node node) const;
+    // The first node of that name. Error where there is none.
+    Node find_node(const std::string& name) const;
+    // Where a node stands in its parent. An animation that moves the node goes first.
+    Transform transform(Node node) const;
+    // Error for numbers that are not finite.
+    void set_transform(Node node, const Transform& transform);
+
+    // ---- Lights, known by their nodes. Meshes that shine are no lights in this sense.
+    std::vector<Node> lights() const;
+    // These throw Error where the node has no light.
+    Light light(Node node) const;
+    void set_light(Node node, const Light& light);
+    void remove_light(Node node);
+    // A new light on a new node without parent.
+    Node add_light(const Light& light, const Transform& transform);
+
+  private:
+    friend struct SceneAccess;
+    friend class View;
+    explicit Scene(std::shared_ptr<struct SceneState> state);
+    std::shared_ptr<struct SceneState> state_;
+};
+
+}  // namespace tarn::api

@@ -1,0 +1,211 @@
+// The public surface: what a program that links Tarn can do, against the command line and against itself.
+#include <gtest/gtest.h>
+#include <tarn/tarn.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include "support/process.h"
+
+namespace {
+
+using tarn::test::read_text;
+using tarn::test::run_tarn;
+using tarn::test::TemporaryFolder;
+
+const std::string CORNELL = TARN_BUILD_DIR "/content/cornell.glb";
+
+tarn::Frame frame_of(const tarn::Camera& camera, std::uint32_t number = 0) {
+    tarn::Frame frame;
+    frame.camera = camera;
+    frame.number = number;
+    frame.settings.set("direct", "ris");
+    return frame;
+}
+
+double mean(const tarn::Picture& picture) {
+    double sum = 0.0;
+    for (const float value : picture.rgb) sum += value;
+    return sum / double(picture.rgb.size());
+}
+
+template <class Work>
+std::string error_of(const Work& work) {
+    try {
+        work();
+    } catch (const tarn::Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+// A floor of 2 x 2 m under a point light of 1 W/sr at 1 m, in the file `name` of the folder.
+std::string write_floor(const TemporaryFolder& folder) {
+    const float corners[] = {-1, 0, -1, -1, 0, 1, 1, 0, -1, 1, 0, 1};
+    const std::uint16_t indices[] = {0, 1, 2, 2, 1, 3};
+    std::ofstream bin(folder.file("floor.bin"), std::ios::binary);
+    bin.write(reinterpret_cast<const char*>(corners), sizeof(corners));
+    bin.write(reinterpret_cast<const char*>(indices), sizeof(indices));
+    std::ofstream(folder.file("floor.gltf")) << R"({"asset": {"version": "2.0"},
+        "extensionsUsed": ["KHR_lights_punctual"], "scene": 0, "scenes": [{"nodes": [0, 1]}],
+        "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 1}]}},
+        "nodes": [{"name": "floor", "mesh": 0}, {"name": "lamp", "translation": [0, 1, 0],
+            "extensions": {"KHR_lights_punctual": {"light": 0}}}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        "buffers": [{"uri": "floor.bin", "byteLength": 60}],
+        "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3",
+                       "min": [-1, 0, -1], "max": [1, 0, 1]},
+                      {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}]})";
+    return folder.file("floor.gltf");
+}
+
+const tarn::Camera FROM_ABOVE = tarn::Camera::look_at({0.0, 1.5, 0.0}, {0.0, 0.0, 0.0}, 40.0);
+
+class Library : public testing::Test {
+  protected:
+    static void SetUpTestSuite() { engine_ = std::make_unique<tarn::Engine>(); }
+    static void TearDownTestSuite() { engine_.reset(); }
+
+    static inline std::unique_ptr<tarn::Engine> engine_;
+    TemporaryFolder folder_;
+};
+
+TEST_F(Library, APictureHasTheBitsOfTheCommandLine) {
+    ASSERT_EQ(run_tarn({"render", CORNELL, "--size", "48x32", "--seed", "5", "--frames", "3", "--preset",
+                        "fast", "--out", folder_.file("tarn.exr")})
+                  .status,
+              0);
+    const tarn::Scene scene = tarn::Scene::load(CORNELL);
+    tarn::View view(*engine_, scene, 48, 32);
+    tarn::Frame frame = frame_of(scene.default_camera(1.5));
+    frame.seed = 5;
+    frame.settings = tarn::Settings::preset("fast");
+    tarn::Picture picture;
+    for (frame.number = 0; frame.number < 3; ++frame.number) picture = view.render(frame);
+    picture.write_exr(folder_.file("library.exr"));
+    EXPECT_TRUE(read_text(folder_.file("tarn.exr")) == read_text(folder_.file("library.exr")));
+    EXPECT_GT(picture.report.shadow_rays, 0u);
+    EXPECT_GT(picture.report.frame_ms, 0.0);
+    EXPECT_FALSE(picture.report.passes.empty());
+    EXPECT_FALSE(picture.report.counters.empty());
+    picture.write_png(folder_.file("a.png"));
+    EXPECT_TRUE(read_text(folder_.file("a.png")).starts_with("\x89PNG"));
+}
+
+TEST_F(Library, LightsAndNodesCanBeMoved) {
+    tarn::Scene scene = tarn::Scene::load(write_floor(folder_));
+    tarn::View view(*engine_, scene, 16, 16);
+    const double before = mean(view.render(frame_of(FROM_ABOVE, 0)));
+    ASSERT_GT(before, 0.0);
+    const tarn::Node lamp = scene.lights().at(0);
+    EXPECT_EQ(lamp, scene.find_node("lamp"));
+
+    tarn::Light light = scene.light(lamp);
+    light.intensity = {2.0, 2.0, 2.0};
+    scene.set_light(lamp, light);
+    EXPECT_NEAR(mean(view.render(frame_of(FROM_ABOVE, 1))) / before, 2.0, 1e-4);
+
+    tarn::Transform place = scene.transform(lamp);
+    place.translation.y = 10.0;
+    scene.set_transform(lamp, place);
+    EXPECT_LT(mean(view.render(frame_of(FROM_ABOVE, 2))), 0.1 * before);
+
+    tarn::Transform away;
+    away.translation.x = 100.0;
+    scene.set_transform(scene.find_node("floor"), away);
+    EXPECT_EQ(mean(view.render(frame_of(FROM_ABOVE, 3))), 0.0);
+}
+
+TEST_F(Library, LightsComeAndGo) {
+    tarn::Scene scene = tarn::Scene::load(write_floor(folder_));
+    tarn::View view(*engine_, scene, 16, 16);
+    const double one = mean(view.render(frame_of(FROM_ABOVE, 0)));
+    const tarn::Node lamp = scene.lights().at(0);
+    const tarn::Node second = scene.add_light(scene.light(lamp), scene.transform(lamp));
+    EXPECT_EQ(scene.lights().size(), 2u);
+    // Two alike in one place: whichever is drawn counts twice.
+    EXPECT_NEAR(mean(view.render(frame_of(FROM_ABOVE, 1))) / one, 2.0, 1e-3);
+    scene.remove_light(lamp);
+    EXPECT_NEAR(mean(view.render(frame_of(FROM_ABOVE, 2))) / one, 1.0, 1e-3);
+    scene.remove_light(second);
+    EXPECT_EQ(mean(view.render(frame_of(FROM_ABOVE, 3))), 0.0);
+    EXPECT_NE(error_of([&] { scene.light(lamp); }).find("'lamp' has no light"), std::string::npos);
+}
+
+TEST_F(Library, TwoViewsOfASceneSeeTheSame) {
+    tarn::Scene scene = tarn::Scene::load(write_floor(folder_));
+    tarn::View a(*engine_, scene, 16, 16), b(*engine_, scene, 16, 16);
+    EXPECT_EQ(a.render(frame_of(FROM_ABOVE)).rgb, b.render(frame_of(FROM_ABOVE)).rgb);
+    tarn::Transform place = scene.transform(scene.find_node("lamp"));
+    place.translation.x = 0.5;
+    scene.set_transform(scene.find_node("lamp"), place);
+    EXPECT_EQ(a.render(frame_of(FROM_ABOVE, 1)).rgb, b.render(frame_of(FROM_ABOVE, 1)).rgb);
+}
+
+TEST_F(Library, AViewOutlivesItsSceneAndEngine) {
+    std::unique_ptr<tarn::View> view;
+    {
+        const tarn::Engine engine;
+        const tarn::Scene scene = tarn::Scene::load(write_floor(folder_));
+        view = std::make_unique<tarn::View>(engine, scene, 8, 8);
+    }
+    EXPECT_GT(mean(view->render(frame_of(FROM_ABOVE))), 0.0);
+}
+
+TEST_F(Library, WhatIsDrawnCanBeReadAndShown) {
+    const tarn::Scene scene = tarn::Scene::load(write_floor(folder_));
+    tarn::View view(*engine_, scene, 8, 8);
+    EXPECT_NE(error_of([&] { view.read(); }).find("not rendered"), std::string::npos);
+    const tarn::FrameReport report = view.draw(frame_of(FROM_ABOVE));
+    EXPECT_GT(report.shadow_rays, 0u);
+    EXPECT_GT(mean(view.read()), 0.0);
+    EXPECT_NE(view.texture(0.0f), 0u);
+    EXPECT_NE(error_of([&] { view.present(8, 8); }).find("no window"), std::string::npos);
+}
+
+TEST(LibrarySettings, AreThoseOfTheTable) {
+    tarn::Settings settings = tarn::Settings::preset("balanced");
+    EXPECT_EQ(settings.get("neighbours"), "3");
+    const tarn::Settings copy = settings;
+    settings.set("neighbours", "2");
+    EXPECT_EQ(settings.get("neighbours"), "2");
+    EXPECT_EQ(copy.get("neighbours"), "3");
+    for (const tarn::SettingInfo& info : tarn::Settings::list()) {
+        settings.set(info.name, settings.get(info.name));
+        EXPECT_FALSE(info.sentence.empty()) << info.name;
+        EXPECT_TRUE(!info.choices.empty() || info.minimum < info.maximum) << info.name;
+    }
+    EXPECT_FALSE(tarn::Settings::list_presets().empty());
+}
+
+TEST(LibraryErrors, AreOneLineThatNamesWhatIsWrong) {
+    const TemporaryFolder folder;
+    tarn::Settings settings;
+    const auto expect = [](const std::string& text, const std::string& part) {
+        EXPECT_NE(text.find(part), std::string::npos) << text;
+        EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+    };
+    expect(error_of([&] { settings.set("neighbours", "many"); }), "neighbours: 'many'");
+    expect(error_of([&] { settings.set("colour", "red"); }), "no setting 'colour'");
+    expect(error_of([&] { tarn::Settings::preset("best"); }), "'best' is none of");
+    expect(error_of([&] { tarn::Scene::load(folder.file("gone.glb")); }), "gone.glb");
+    tarn::Scene scene = tarn::Scene::load(write_floor(folder));
+    expect(error_of([&] { scene.camera("main"); }), "camera 'main': the scene has none");
+    expect(error_of([&] { scene.find_node("nobody"); }), "no node 'nobody'");
+    expect(error_of([&] { scene.move_to(std::numeric_limits<double>::infinity()); }), "inf");
+    tarn::Transform flat;
+    flat.rotation = {0.0, 0.0, 0.0, 0.0};
+    expect(error_of([&] { scene.set_transform(scene.find_node("floor"), flat); }), "length 0");
+    tarn::Light light;
+    light.intensity.x = -1.0;
+    expect(error_of([&] { scene.add_light(light, {}); }), "-1");
+    expect(error_of([&] { tarn::Camera::look_at({}, {}, 180.0); }), "180 degrees");
+    tarn::Picture picture;
+    picture.width_px = 3;
+    picture.height_px = 2;
+    expect(error_of([&] { picture.write_exr(folder.file("a.exr")); }), "size");
+}
+
+}  // namespace
