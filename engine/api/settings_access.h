@@ -1,7 +1,7 @@
 // The engine's own settings behind the public ones.
 #pragma once
 
-#include "renderer/settings.h"
+#include "settings/settings.h"
 #include "tarn/settings.h"
 
 namespace tarn::api {

@@ -168,7 +168,7 @@ class SharedWorld : public testing::Test {
 
     static RenderSettings settings_of(const char* preset, LightSelection selection) {
         RenderSettings settings = find_preset(preset).settings;
-        settings.light_selection = selection;
+        settings.direct.light_selection = selection;
         return settings;
     }
 
@@ -177,13 +177,13 @@ class SharedWorld : public testing::Test {
 
 TEST_F(SharedWorld, LightsDrawnByTheTreeAreThoseOfARendererAlone) {
     RenderSettings settings;
-    settings.direct = DirectMode::LIGHT_TREE;
+    settings.direct.mode = DirectMode::LIGHT_TREE;
     EXPECT_EQ(count_differences(settings), 0);
 }
 
 TEST_F(SharedWorld, LightsDrawnByPowerAreThoseOfARendererAlone) {
     RenderSettings settings;
-    settings.brdf_candidate = true;
+    settings.direct.brdf_candidate = true;
     EXPECT_EQ(count_differences(settings), 0);
 }
 
