@@ -5,7 +5,7 @@
 #include "passes/direct/light_tiles.h"
 #include "passes/direct/reuse.h"
 #include "passes/direct/shade.h"
-#include "passes/trace_visibility.h"
+#include "passes/trace_rays.h"
 #include "renderer/renderer.h"
 #include "shared/math/random.h"
 

@@ -34,7 +34,8 @@ float depth_parameter(const World& world, const CameraRecord& camera) {
 
 }  // namespace
 
-Renderer::Renderer(const World& world, const RayTracer& tracer, int width_px, int height_px, Defines extra_defines)
+Renderer::Renderer(const World& world, const RayTracer& tracer, int width_px, int height_px,
+                   Defines extra_defines)
     : world_(world),
       tracer_(tracer),
       size_px_(width_px, height_px),
@@ -97,7 +98,8 @@ void Renderer::upload_frame_block(const FrameInput& input) {
     block.frame_history =
         glm::uvec4(gpu_scene_.previous_first_instance(), gpu_scene_.lights().previous_first_row(),
                    gpu_scene_.lights().remap_first_row(), 0u);
-    block.frame_tables = glm::uvec4(gpu_light_tree_.node_count(), gpu_scene_.lights().instance_lookup_first_row(),
+    block.frame_tables =
+        glm::uvec4(gpu_light_tree_.node_count(), gpu_scene_.lights().instance_lookup_first_row(),
                    gpu_scene_.lights().slot_lookup_first_row(), 0u);
     frame_block_.upload(0, std::span<const FrameBlock>(&block, 1));
     recorder_.bind_frame_block(frame_block_);

@@ -42,9 +42,10 @@ struct FrameOutput {
 class Renderer {
   public:
     // Throws Error when the world does not fit the driver's limits. Any number of renderers may look at one
-    // world, each when it likes. `world` and `tracer` must outlive the renderer. `extra_defines` reach every shader of the scene: tests plant mistakes with them
-    // (TARN_PLANT_*).
-    Renderer(const World& world, const RayTracer& tracer, int width_px, int height_px, Defines extra_defines = {});
+    // world, each when it likes. `world` and `tracer` must outlive the renderer. `extra_defines` reach every
+    // shader of the scene: tests plant mistakes with them (TARN_PLANT_*).
+    Renderer(const World& world, const RayTracer& tracer, int width_px, int height_px,
+             Defines extra_defines = {});
 
     // Uploads what moved; call after update_world and the tracer's update.
     void update();

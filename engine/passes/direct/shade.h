@@ -3,7 +3,7 @@
 
 #include "passes/gbuffer.h"
 #include "passes/reuse/samples.h"
-#include "passes/trace_visibility.h"
+#include "passes/trace_rays.h"
 
 namespace tarn {
 

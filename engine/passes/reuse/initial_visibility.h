@@ -2,7 +2,7 @@
 #pragma once
 
 #include "passes/reuse/samples.h"
-#include "passes/trace_visibility.h"
+#include "passes/trace_rays.h"
 
 namespace tarn {
 

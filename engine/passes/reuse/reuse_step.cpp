@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "gl/handle.h"
-#include "passes/trace_visibility.h"
+#include "passes/trace_rays.h"
 #include "shared/interface/bindings.h"
 #include "shared/interface/records.h"
 #include "shared/math/reservoir.h"

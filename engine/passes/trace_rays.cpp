@@ -1,4 +1,4 @@
-#include "passes/trace_visibility.h"
+#include "passes/trace_rays.h"
 
 namespace tarn {
 
@@ -14,6 +14,19 @@ Answers trace_visibility(const FrameContext& frame, const std::string& name, con
         frame.rays.shadow.rejected += result.rejected;
     });
     return answers;
+}
+
+Rows trace_closest_hits(const FrameContext& frame, const std::string& name, const Rows& rays,
+                        std::size_t ray_count, const CoverageKey& key) {
+    Rows hits = frame.recorder.take_rows(name, ray_count * HIT_ROWS * sizeof(glm::uvec4), BufferUse::SHARED);
+    frame.pass(name).read_on_cpu(rays->buffer()).write_on_cpu(hits->buffer()).run_on_cpu([&] {
+        const RayBatchResult result = frame.tracer.trace_closest_hits(
+            rays->buffer().mapped<glm::uvec4>().first(ray_count * RAY_ROWS),
+            hits->buffer().mapped<glm::uvec4>().first(ray_count * HIT_ROWS), key);
+        frame.rays.closest += result.traced;
+        frame.rays.shadow.rejected += result.rejected;
+    });
+    return hits;
 }
 
 }  // namespace tarn

@@ -1,5 +1,5 @@
-// Visibility: shadow rays that a shader wrote, answered by the ray tracer's worker threads in the same
-// memory.
+// Rays that a shader wrote, answered by the ray tracer's worker threads in the same memory: the one place
+// where GL memory meets the tracer.
 #pragma once
 
 #include <string>
@@ -15,5 +15,9 @@ using Answers = Rows;
 // RAY_PREVIOUS are answered as the last frame would have answered them.
 Answers trace_visibility(const FrameContext& frame, const std::string& name, const Rows& rays,
                          std::size_t ray_count, const CoverageKey& key);
+
+// The same for what rays meet first: HIT_ROWS rows a ray (HitRecord).
+Rows trace_closest_hits(const FrameContext& frame, const std::string& name, const Rows& rays,
+                        std::size_t ray_count, const CoverageKey& key);
 
 }  // namespace tarn
