@@ -66,6 +66,13 @@ class PassRecorder {
     }
     // A table that the CPU filled. What a pass reads of it is no traffic that could be told.
     PassRecorder& read_table(unsigned unit, const RowBuffer& rows);
+    // What a finished frame left, whatever recorder made it.
+    template <class Texture>
+    PassRecorder& read_finished(unsigned unit, const Texture& texture) {
+        texture.bind(unit);
+        bytes_read_ += texture.size_bytes();
+        return *this;
+    }
     // The pass's own constants (shared/interface/constants), a copy of which it gets.
     template <class T>
     PassRecorder& constants(const T& values) {

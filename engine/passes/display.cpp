@@ -50,11 +50,10 @@ DisplayPass::DisplayPass(ProgramLibrary& programs, int width_px, int height_px)
 const Texture2D& DisplayPass::record(FrameRecorder& frame, const Texture2D& radiance, const GBuffer& gbuffer,
                                      DisplayView view, float exposure_ev) {
     const Program& program = programs_.compute(DisplayVariant::PATH, DisplayVariant{view}.defines());
-    // Bound directly: these come from a finished frame, whatever recorder made them.
-    radiance.bind(UNIT_PASS_A);
-    gbuffer.seen->bind(UNIT_PASS_B);
-    gbuffer.surface().bind(UNIT_SURFACE);
     frame.pass("display")
+        .read_finished(UNIT_PASS_A, radiance)
+        .read_finished(UNIT_PASS_B, *gbuffer.seen)
+        .read_finished(UNIT_SURFACE, gbuffer.surface())
         .constants(DisplayConstants{std::exp2(exposure_ev)})
         .write_image(0, picture_)
         .dispatch(program, {picture_.width_px(), picture_.height_px()});

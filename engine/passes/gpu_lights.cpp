@@ -140,9 +140,9 @@ std::uint32_t GpuLights::remap_first_row() const {
     return remapped_ ? std::uint32_t(first_remap_row()) : INVALID_INDEX;
 }
 
-void GpuLights::bind() const {
-    rows_->texture().bind(UNIT_LIGHT_ROWS);
-    alias_->texture().bind(UNIT_LIGHT_ALIAS);
+void GpuLights::bind(FrameRecorder& recorder) const {
+    recorder.bind_table(UNIT_LIGHT_ROWS, *rows_);
+    recorder.bind_table(UNIT_LIGHT_ALIAS, *alias_);
 }
 
 }  // namespace tarn

@@ -13,6 +13,7 @@
 #include <optional>
 #include <vector>
 
+#include "frame/frame_recorder.h"
 #include "gl/row_buffer.h"
 #include "shared/math/light.h"
 #include "world/world.h"
@@ -30,7 +31,7 @@ class GpuLights {
     void advance();
 
     // Binds the rows and the tables for drawing to their texture units.
-    void bind() const;
+    void bind(FrameRecorder& recorder) const;
 
     std::uint32_t previous_first_row() const { return std::uint32_t(capacity_); }
     // INVALID_INDEX where every light has the index that it had.

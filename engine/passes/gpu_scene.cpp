@@ -128,15 +128,15 @@ void GpuScene::advance(const World& world) {
     lights_.advance();
 }
 
-void GpuScene::bind() const {
-    vertices_.bind(UNIT_VERTEX_ROWS);
-    triangles_.bind(UNIT_TRIANGLES);
-    instances_.bind(UNIT_INSTANCE_ROWS);
-    materials_.bind(UNIT_MATERIAL_ROWS);
-    texels_.bind(UNIT_TEXELS);
-    lights_.bind();
-    environment_texels_.bind(UNIT_ENVIRONMENT_TEXELS);
-    environment_alias_.bind(UNIT_ENVIRONMENT_ALIAS);
+void GpuScene::bind(FrameRecorder& recorder) const {
+    recorder.bind_table(UNIT_VERTEX_ROWS, vertices_.rows());
+    recorder.bind_table(UNIT_TRIANGLES, triangles_.rows());
+    recorder.bind_table(UNIT_INSTANCE_ROWS, instances_.rows());
+    recorder.bind_table(UNIT_MATERIAL_ROWS, materials_.rows());
+    recorder.bind_table(UNIT_TEXELS, texels_.rows());
+    lights_.bind(recorder);
+    recorder.bind_table(UNIT_ENVIRONMENT_TEXELS, environment_texels_.rows());
+    recorder.bind_table(UNIT_ENVIRONMENT_ALIAS, environment_alias_.rows());
 }
 
 }  // namespace tarn

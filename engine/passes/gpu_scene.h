@@ -35,7 +35,7 @@ class Table {
     void copy_rows(std::size_t from_row, std::size_t to_row, std::size_t count) {
         rows_.buffer().copy(from_row * row_bytes_, to_row * row_bytes_, count * row_bytes_);
     }
-    void bind(unsigned unit) const { rows_.texture().bind(unit); }
+    const RowBuffer& rows() const { return rows_; }
     const Buffer& buffer() const { return rows_.buffer(); }
 
   private:
@@ -53,8 +53,8 @@ class GpuScene {
     // Ends a frame: where things are now becomes where they were.
     void advance(const World& world);
 
-    // Binds all tables to their texture units (shared/interface/bindings.h).
-    void bind() const;
+    // Binds all tables to their texture units for a frame (shared/interface/bindings.h).
+    void bind(FrameRecorder& recorder) const;
 
     const Buffer& vertex_buffer() const { return vertices_.buffer(); }
     const Buffer& triangle_buffer() const { return triangles_.buffer(); }

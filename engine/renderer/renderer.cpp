@@ -110,7 +110,7 @@ FrameOutput Renderer::render(const FrameInput& input) {
     recorder_.begin();
     if (plan_.direct.light_tree) fit_light_tree();  // before the frame block, which counts its nodes
     upload_frame_block(input);
-    gpu_scene_.bind();
+    gpu_scene_.bind(recorder_);
 
     RayCounts rays;
     FrameContext frame{recorder_, programs_,      tracer_,        counters_, rays,

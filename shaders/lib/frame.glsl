@@ -18,7 +18,9 @@ CameraRecord frame_camera() {
     return unpack_camera(frame_camera_position, frame_camera_right, frame_camera_up, frame_camera_forward);
 }
 
-PixelRay pixel_ray(ivec2 pixel) { return camera_ray(frame_camera(), vec2(pixel) + 0.5f, vec2(frame_size.xy)); }
+PixelRay pixel_ray(ivec2 pixel) {
+    return camera_ray(frame_camera(), vec2(pixel) + 0.5f, vec2(frame_size.xy));
+}
 
 uint pixel_index(ivec2 pixel) { return uint(pixel.y) * frame_size.x + uint(pixel.x); }
 

@@ -2,7 +2,9 @@
 // samples, and so adds no bias by itself.
 
 // Depth of a point before a camera, metres.
-float view_depth(CameraRecord camera, vec3 position) { return dot(position - camera.position, camera.forward); }
+float view_depth(CameraRecord camera, vec3 position) {
+    return dot(position - camera.position, camera.forward);
+}
 
 // What the test knows of a surface.
 struct Look {
@@ -19,8 +21,8 @@ bool is_similar(Look expected, Look found, float depth) {
     const float MAX_PLANE_DISTANCE = 0.1f;  // of the depth
     const float MIN_NORMAL_COSINE = 0.5f;
     const float MAX_ALPHA_DIFFERENCE = 0.25f;
-    bool near =
-        abs(dot(expected.position - found.position, found.geometric_normal)) <= MAX_PLANE_DISTANCE * abs(depth);
+    bool near = abs(dot(expected.position - found.position, found.geometric_normal)) <=
+                MAX_PLANE_DISTANCE * abs(depth);
     return near && dot(expected.shading_normal, found.shading_normal) >= MIN_NORMAL_COSINE &&
            abs(expected.alpha - found.alpha) <= MAX_ALPHA_DIFFERENCE;
 }

@@ -5,7 +5,8 @@
 layout(binding = UNIT_PREVIOUS_SURFACE) uniform sampler2DArray previous_layers;
 
 CameraRecord previous_camera() {
-    return unpack_camera(frame_previous_position, frame_previous_right, frame_previous_up, frame_previous_forward);
+    return unpack_camera(frame_previous_position, frame_previous_right, frame_previous_up,
+                         frame_previous_forward);
 }
 
 // Where the surface of `pixel` was in the last frame, relative to the world's origin.
@@ -35,11 +36,10 @@ ivec2 project_to_previous(vec3 position) {
 
 // The receiver that `pixel` was in the last frame; false where nothing was lit.
 bool load_previous_receiver(ivec2 pixel, out Receiver r) {
-    ShadingPoint point = unpack_shading_point(
-        texelFetch(previous_layers, ivec3(pixel, LAYER_POSITION), 0),
-        texelFetch(previous_layers, ivec3(pixel, LAYER_NORMALS), 0),
-        texelFetch(previous_layers, ivec3(pixel, LAYER_DIFFUSE), 0),
-        texelFetch(previous_layers, ivec3(pixel, LAYER_SPECULAR), 0));
+    ShadingPoint point = unpack_shading_point(texelFetch(previous_layers, ivec3(pixel, LAYER_POSITION), 0),
+                                              texelFetch(previous_layers, ivec3(pixel, LAYER_NORMALS), 0),
+                                              texelFetch(previous_layers, ivec3(pixel, LAYER_DIFFUSE), 0),
+                                              texelFetch(previous_layers, ivec3(pixel, LAYER_SPECULAR), 0));
     vec3 direction = camera_ray(previous_camera(), vec2(pixel) + 0.5f, vec2(frame_size.xy)).direction;
     r = make_receiver(point, -direction);
     return point.position_error >= 0.0f;

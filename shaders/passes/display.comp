@@ -13,8 +13,9 @@ layout(binding = 0, rgba8) writeonly uniform image2D out_picture;
 
 // Black, blue, cyan, green, yellow, red, white for t = 0, 1/6 .. 1.
 vec3 false_colour(float t) {
-    const vec3 RAMP[7] = vec3[](vec3(0.0f), vec3(0.0f, 0.0f, 1.0f), vec3(0.0f, 1.0f, 1.0f), vec3(0.0f, 1.0f, 0.0f),
-                                vec3(1.0f, 1.0f, 0.0f), vec3(1.0f, 0.0f, 0.0f), vec3(1.0f));
+    const vec3 RAMP[7] =
+        vec3[](vec3(0.0f), vec3(0.0f, 0.0f, 1.0f), vec3(0.0f, 1.0f, 1.0f), vec3(0.0f, 1.0f, 0.0f),
+               vec3(1.0f, 1.0f, 0.0f), vec3(1.0f, 0.0f, 0.0f), vec3(1.0f));
     float position = clamp(t, 0.0f, 1.0f) * 6.0f;
     int segment = min(int(position), 5);
     return mix(RAMP[segment], RAMP[segment + 1], position - float(segment));

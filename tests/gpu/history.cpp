@@ -157,7 +157,7 @@ TEST_F(History, WeightsOverTimeSumToOne) {
     for (const Mis mis : {Mis::BALANCE, Mis::PAIRWISE}) {
         EXPECT_EQ(count_wrong_sums(make_breathing_lamp(0.1), mis, "TARN_PLANT_NOTHING"), 0u);
     }
-    for (const char* planted : {"TARN_PLANT_DROP_FRESH_JACOBIAN", "TARN_PLANT_DROP_PAST_JACOBIAN"}) {
+    for (const char* planted : {"TARN_PLANT_DROP_FRESH_JACOBIAN", "TARN_PLANT_DROP_PREVIOUS_JACOBIAN"}) {
         EXPECT_GT(count_wrong_sums(make_breathing_lamp(0.1), Mis::PAIRWISE, planted), 100u) << planted;
     }
 }

@@ -52,7 +52,7 @@ TEST_F(RestirMotion, LampsThatShrink) {
 }
 
 TEST_F(RestirMotion, NegativeControlJacobiansThatAreDroppedAreFound) {
-    for (const char* planted : {"TARN_PLANT_DROP_FRESH_JACOBIAN", "TARN_PLANT_DROP_PAST_JACOBIAN"}) {
+    for (const char* planted : {"TARN_PLANT_DROP_FRESH_JACOBIAN", "TARN_PLANT_DROP_PREVIOUS_JACOBIAN"}) {
         expect_found(make_breathing_lamp(0.1), unbiased("pairwise"), planted);
         expect_found(make_breathing_lamp(-0.05), unbiased("balance", Mis::BALANCE), planted);
     }

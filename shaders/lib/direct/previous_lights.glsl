@@ -56,7 +56,9 @@ float move_jacobian(SAMPLE present, SAMPLE previous) {
     return ratio_or_zero(triangle_area(now), triangle_area(load_previous_light(previous.light)));
 }
 #else
-IncidentLight load_previous_incident_light(SAMPLE drawn, vec3 point) { return load_incident_light(drawn, point); }
+IncidentLight load_previous_incident_light(SAMPLE drawn, vec3 point) {
+    return load_incident_light(drawn, point);
+}
 float load_previous_light_error(SAMPLE drawn) { return load_light_error(drawn); }
 SAMPLE move_to_previous(SAMPLE drawn) { return drawn; }
 SAMPLE move_to_present(SAMPLE drawn) { return drawn; }
@@ -72,7 +74,8 @@ float previous_sample_target(Receiver previous, SAMPLE drawn) {
 RayRecord previous_sample_ray(Receiver previous, SAMPLE drawn, ivec2 pixel) {
     IncidentLight incident = load_previous_incident_light(drawn, previous.point.position);
     if (!(max_component(incident.value) > 0.0f)) return inactive_ray();
-    RayRecord ray = make_shadow_ray(previous.point, incident, load_previous_light_error(drawn), pixel_index(pixel));
+    RayRecord ray =
+        make_shadow_ray(previous.point, incident, load_previous_light_error(drawn), pixel_index(pixel));
 #ifndef TARN_PLANT_PRESENT_GEOMETRY
     ray.pixel |= RAY_PREVIOUS;
 #endif

@@ -27,7 +27,8 @@ void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     bool inside = !is_outside(pixel);
     uint row = inside ? pixel_index(pixel) * RESERVOIR_ROWS : 0u;
-    Reservoir r = unpack_reservoir(texelFetch(in_reservoirs, int(row)), texelFetch(in_reservoirs, int(row + 1u)));
+    Reservoir r =
+        unpack_reservoir(texelFetch(in_reservoirs, int(row)), texelFetch(in_reservoirs, int(row + 1u)));
     float weight = inside ? r.target * r.contribution_weight : 0.0f;
     group_weights[gl_LocalInvocationIndex] = weight;
     barrier();

@@ -101,10 +101,12 @@ SampleReservoir finish_merge(Merge m, float confidence, float normalization) {
     m.live.weight_sum = ratio_or_zero(weight_sum, normalization);
 #endif
     Reservoir r = finish_reservoir(m.live, confidence);
-    if (has_overflown(m.live) || (weight_sum > 0.0f && normalization == 0.0f)) count_event(COUNTER_BAD_RESERVOIR);
+    if (has_overflown(m.live) || (weight_sum > 0.0f && normalization == 0.0f))
+        count_event(COUNTER_BAD_RESERVOIR);
     r.age = m.age;
     r.visibility = m.visibility;
-    if (TARN_FINAL_VISIBILITY == FINAL_VISIBILITY_AVERAGED) r.visibility = bounded_ratio(m.visibility_sum, weight_sum);
+    if (TARN_FINAL_VISIBILITY == FINAL_VISIBILITY_AVERAGED)
+        r.visibility = bounded_ratio(m.visibility_sum, weight_sum);
     if (MIS_VISIBILITY) r.visibility = 1.0f;
     if (r.contribution_weight == 0.0f) m.chosen = no_sample();
     return SampleReservoir(m.chosen, r);

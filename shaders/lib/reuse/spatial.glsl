@@ -45,10 +45,12 @@ ivec2 technique_pixel(Gathering g, uint t) { return t == 0u ? g.pixel : neighbou
 bool has_joined(Gathering g, uint t) { return t == 0u || (g.joined & (1u << t)) != 0u; }
 
 bool can_join(Receiver here, ivec2 pixel, ivec2 neighbour) {
-    if (any(lessThan(neighbour, ivec2(0))) || any(greaterThanEqual(neighbour, ivec2(frame_size.xy)))) return false;
+    if (any(lessThan(neighbour, ivec2(0))) || any(greaterThanEqual(neighbour, ivec2(frame_size.xy))))
+        return false;
     if (neighbour == pixel) return false;
     vec4 position = load_layer(neighbour, LAYER_POSITION);
-    Look look = look_of_layers(position, load_layer(neighbour, LAYER_NORMALS), load_layer(neighbour, LAYER_DIFFUSE));
+    Look look =
+        look_of_layers(position, load_layer(neighbour, LAYER_NORMALS), load_layer(neighbour, LAYER_DIFFUSE));
     Look own = look_of(here.point);
     // 1/Z gives all who could have made a sample the same share of it, however rarely they do: a mirror's energy would
     // hang on samples that no run meets. Balance and pairwise know how likely each is.
@@ -128,7 +130,8 @@ float balance_sum(Gathering g, uint sampled, SampleReservoir r) {
     float sum = balance_term(technique_confidence(g, sampled), own_target(g, sampled, r));
     for (uint t = 0u; t <= NEIGHBOURS; ++t) {
         if (t == sampled || !has_joined(g, t)) continue;
-        sum += balance_term(technique_confidence(g, t), technique_target(g, t, r.chosen) * answer(g, sampled, t));
+        sum += balance_term(technique_confidence(g, t),
+                            technique_target(g, t, r.chosen) * answer(g, sampled, t));
     }
     return sum;
 }
@@ -161,7 +164,8 @@ float technique_weight(Gathering g, uint t, SampleReservoir r, float target_here
 #ifdef TARN_PLANT_DROP_NORMALIZATION
     return WEIGHTS_SUM_TO_ONE ? 1.0f : confidence;
 #endif
-    if (MIS == MIS_BALANCE) return bounded_ratio(balance_term(confidence, own_target(g, t, r)), balance_sum(g, t, r));
+    if (MIS == MIS_BALANCE)
+        return bounded_ratio(balance_term(confidence, own_target(g, t, r)), balance_sum(g, t, r));
     if (MIS == MIS_PAIRWISE) {
         if (t == 0u) return pairwise_canonical_weight(g);
         return pairwise_neighbour_weight(pairwise_step(g), confidence, own_target(g, t, r), target_here);
@@ -245,7 +249,8 @@ void check_weights(Gathering g) {
             float target = t == sampled ? own_target(g, t, r) : technique_target(g, t, r.chosen);
             if (MIS == MIS_BALANCE) {
                 target *= answer(g, sampled, t);
-                sum += bounded_ratio(balance_term(technique_confidence(g, t), target), balance_sum(g, sampled, r));
+                sum += bounded_ratio(balance_term(technique_confidence(g, t), target),
+                                     balance_sum(g, sampled, r));
             } else if (t > 0u) {
                 PairwiseStep step = pairwise_step(g);
                 sum += pairwise_neighbour_weight(step, technique_confidence(g, t), target, here) +

@@ -78,7 +78,8 @@ bool find_previous_pixel(ivec2 pixel, Receiver here, out ivec2 found) {
     float best = previous_likeness(expected, found);
     ivec2 centre = found;
 #ifdef TARN_PLANT_PREVIOUS_NORMAL
-    if (best >= 0.0f) return true;  // the search would hide the bug: normals that are alike are hard to mistake
+    if (best >= 0.0f)
+        return true;  // the search would hide the bug: normals that are alike are hard to mistake
 #endif
     for (int i = 0; i < 9 && best < GOOD_ENOUGH; ++i) {
         ivec2 candidate = centre + ivec2(i % 3, i / 3) - 1;
@@ -132,7 +133,7 @@ Pair make_pair(Receiver here, SampleReservoir fresh, ivec2 previous_pixel) {
     if (!is_sample(p.previous.chosen)) p.previous.state.contribution_weight = 0.0f;
     p.fresh_in_previous = move_to_previous(fresh.chosen);
     p.fresh_jacobian = total_jacobian(p, fresh.chosen, p.fresh_in_previous);
-#ifdef TARN_PLANT_DROP_PAST_JACOBIAN
+#ifdef TARN_PLANT_DROP_PREVIOUS_JACOBIAN
     p.previous_jacobian = 1.0f;
 #endif
 #ifdef TARN_PLANT_DROP_FRESH_JACOBIAN
@@ -153,7 +154,8 @@ PairTargets find_targets(Pair p, ivec2 pixel) {
     t.here_at_fresh = has_fresh ? p.fresh.state.target : 0.0f;
     t.here_at_previous = has_previous ? sample_target(p.here, p.previous.chosen) : 0.0f;
     t.previous_at_fresh = has_fresh ? find_previous_at_fresh(p) : 0.0f;
-    t.previous_at_previous = has_previous ? ratio_or_zero(p.previous.state.target, p.previous_jacobian) : 0.0f;
+    t.previous_at_previous =
+        has_previous ? ratio_or_zero(p.previous.state.target, p.previous_jacobian) : 0.0f;
     if (MIS_VISIBILITY) {
         t.here_at_previous *= load_answer(pixel, RAY_HERE);
         t.previous_at_fresh *= load_answer(pixel, RAY_PREVIOUS_RECEIVER);
@@ -180,8 +182,9 @@ void weigh(Pair p, PairTargets t, out float fresh_weight, out float previous_wei
                                         previous_term + balance_term(fresh_confidence, t.here_at_previous));
     } else if (MIS == MIS_PAIRWISE) {
         PairwiseStep step = PairwiseStep(fresh_confidence, previous_confidence);
-        fresh_weight = pairwise_defensive_share(step) +
-                       pairwise_canonical_term(step, previous_confidence, t.previous_at_fresh, t.here_at_fresh);
+        fresh_weight =
+            pairwise_defensive_share(step) +
+            pairwise_canonical_term(step, previous_confidence, t.previous_at_fresh, t.here_at_fresh);
         previous_weight =
             pairwise_neighbour_weight(step, own_confidence, t.previous_at_previous, t.here_at_previous);
     } else {
@@ -203,7 +206,8 @@ float find_normalization(Pair p, PairTargets t, bool previous_leads) {
     if (MIS == MIS_ONE_OVER_M) return fresh_confidence + previous_confidence;
     if (MIS != MIS_ONE_OVER_Z) return 1.0f;
     return previous_leads
-               ? z_term(fresh_confidence, t.here_at_previous) + z_term(previous_confidence, t.previous_at_previous)
+               ? z_term(fresh_confidence, t.here_at_previous) +
+                     z_term(previous_confidence, t.previous_at_previous)
                : z_term(fresh_confidence, t.here_at_fresh) + z_term(previous_confidence, t.previous_at_fresh);
 }
 

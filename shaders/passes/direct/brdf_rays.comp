@@ -17,7 +17,8 @@ RayRecord brdf_ray(ivec2 pixel, Receiver r) {
     vec3 direction = from_local(r.frame, local);
     if (!(pdf_brdf_solid_angle(r.point.material, r.view_local, local) > 0.0f)) return ray;
     if (dot(r.point.geometric_normal, direction) <= 0.0f) return ray;
-    ray.origin = offset_ray_origin(r.point.position, r.point.position_error, r.point.geometric_normal, direction);
+    ray.origin =
+        offset_ray_origin(r.point.position, r.point.position_error, r.point.geometric_normal, direction);
     ray.direction = direction;
     ray.max_t = RAY_INFINITY;
     ray.pixel = pixel_index(pixel);

@@ -80,7 +80,8 @@ float brdf_pdf(Stream s, LightSample drawn, IncidentLight incident) {
                                      to_local(s.receiver.frame, incident.direction));
     if (incident.distance >= RAY_INFINITY) return drawn.light == LIGHT_ENVIRONMENT ? pdf : 0.0f;
     pdf *= sample_coverage(drawn);
-    return pdf * max(dot(incident.light_normal, -incident.direction), 0.0f) / (incident.distance * incident.distance);
+    return pdf * max(dot(incident.light_normal, -incident.direction), 0.0f) /
+           (incident.distance * incident.distance);
 #else
     return 0.0f;
 #endif
@@ -129,7 +130,8 @@ float selection_pdf(Stream s, LightSample drawn, IncidentLight incident) {
     float pmf = light_tree_pmf(drawn.light, s.receiver.point.position, s.receiver.point.shading_normal) *
                 (1.0f - environment_probability());
 #else
-    float pmf = unpack_alias_bucket(fetch_light_alias_row(drawn.light)).pmf_own * (1.0f - environment_probability());
+    float pmf =
+        unpack_alias_bucket(fetch_light_alias_row(drawn.light)).pmf_own * (1.0f - environment_probability());
 #endif
     return ratio_or_zero(pmf, triangle_area(load_light(drawn.light)));
 }
@@ -176,7 +178,8 @@ void offer_all(inout Stream s) {
     uint sky_count = SCENE_HAS_ENVIRONMENT ? sky_candidate_count(s) : 0u;
     if (SCENE_HAS_ENVIRONMENT) {
         for (uint i = 0u; i < sky_count; ++i) {
-            LightCandidate c = draw_environment(random_bits4(s.key, sample_dimension(DIMENSION_CANDIDATE + i)));
+            LightCandidate c =
+                draw_environment(random_bits4(s.key, sample_dimension(DIMENSION_CANDIDATE + i)));
             c.pdf *= share;
             offer(s, c, i);
         }

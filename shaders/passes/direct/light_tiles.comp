@@ -16,7 +16,8 @@ void main() {
     key.seed = frame_size.w;
     LightCandidate c = draw_light_by_power(random_bits4(key, DIMENSION_TILE + 1u));
     uint row = entry * LIGHT_TILE_ROWS;
-    for (uint i = 0u; i < LIGHT_ROWS; ++i) out_tiles[row + i] = fetch_light_row(c.drawn.light * LIGHT_ROWS + i);
-    out_tiles[row + LIGHT_ROWS] = uvec4(c.drawn.light, floatBitsToUint(c.drawn.uv.x), floatBitsToUint(c.drawn.uv.y),
-                                        floatBitsToUint(c.pdf));
+    for (uint i = 0u; i < LIGHT_ROWS; ++i)
+        out_tiles[row + i] = fetch_light_row(c.drawn.light * LIGHT_ROWS + i);
+    out_tiles[row + LIGHT_ROWS] = uvec4(c.drawn.light, floatBitsToUint(c.drawn.uv.x),
+                                        floatBitsToUint(c.drawn.uv.y), floatBitsToUint(c.pdf));
 }

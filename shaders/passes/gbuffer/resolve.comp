@@ -70,7 +70,8 @@ void store_sky(ivec2 pixel, vec3 direction) {
 void store_surface(ivec2 pixel, Surface s) {
     ShadingPoint p = s.point;
     imageStore(out_position, pixel, vec4(p.position, s.unlit ? -1.0f : p.position_error));
-    imageStore(out_normals, pixel, vec4(encode_octahedral(p.geometric_normal), encode_octahedral(p.shading_normal)));
+    imageStore(out_normals, pixel,
+               vec4(encode_octahedral(p.geometric_normal), encode_octahedral(p.shading_normal)));
     imageStore(out_diffuse, pixel, vec4(p.material.diffuse_albedo, p.material.alpha));
     imageStore(out_specular, pixel, vec4(p.material.f0, p.material.f90));
     imageStore(out_emission, pixel, vec4(s.emission, 0.0f));
