@@ -3,7 +3,9 @@
 
 #include "api/guard.h"
 #include "core/display.h"
+#include "core/version.h"
 #include "image_io/image_io.h"
+#include "tarn/version.h"
 
 namespace tarn::api {
 namespace {
@@ -21,12 +23,16 @@ Image to_image(const Picture& picture) {
 
 }  // namespace
 
+std::string describe_version() {
+    return describe_program();
+}
+
 float Picture::auto_exposure_ev() const {
     return guard([&] { return tarn::auto_exposure_ev(to_image(*this)); });
 }
 
 void Picture::write_exr(const std::filesystem::path& file) const {
-    guard([&] { tarn::write_exr(file, to_image(*this)); });
+    guard([&] { tarn::write_exr(file, to_image(*this), {{"software", describe_program()}}); });
 }
 
 void Picture::write_png(const std::filesystem::path& file, std::optional<float> exposure_ev) const {

@@ -4,6 +4,7 @@
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
+#include <ImfStringAttribute.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -22,8 +23,10 @@ std::string one_line(std::string message) {
     return message;
 }
 
-void write_planes(const std::string& name, int width, int height, const std::vector<ExrChannel>& channels) {
+void write_planes(const std::string& name, int width, int height, const std::vector<ExrChannel>& channels,
+                  const PictureNotes& notes) {
     Imf::Header header(width, height);
+    for (const auto& [key, text] : notes) header.insert(key, Imf::StringAttribute(text));
     header.compression() = Imf::ZIP_COMPRESSION;
     Imf::FrameBuffer planes;
     for (const ExrChannel& channel : channels) {
@@ -103,18 +106,18 @@ std::vector<ExrChannel> read_planes(const std::filesystem::path& path, int& widt
 }  // namespace
 
 void write_exr(const std::filesystem::path& path, int width, int height,
-               const std::vector<ExrChannel>& channels) {
+               const std::vector<ExrChannel>& channels, const PictureNotes& notes) {
     check_channels(path, width, height, channels);
     write_whole(path, [&](const std::string& name) {
         try {
-            write_planes(name, width, height, channels);
+            write_planes(name, width, height, channels, notes);
         } catch (const std::exception& error) {
             throw Error("{}: cannot write: {}", path.string(), one_line(error.what()));
         }
     });
 }
 
-void write_exr(const std::filesystem::path& path, const Image& image) {
+void write_exr(const std::filesystem::path& path, const Image& image, const PictureNotes& notes) {
     if (image.channels != 3)
         throw Error("{}: the picture has {} channels, 3 are needed", path.string(), image.channels);
     const char* names[3] = {"R", "G", "B"};
@@ -123,7 +126,22 @@ void write_exr(const std::filesystem::path& path, const Image& image) {
         channels.push_back({names[c], std::vector<float>(image.pixel_count())});
         for (std::size_t i = 0; i < image.pixel_count(); ++i) channels[c].values[i] = image.values[3 * i + c];
     }
-    write_exr(path, image.width, image.height, channels);
+    write_exr(path, image.width, image.height, channels, notes);
+}
+
+PictureNotes read_exr_notes(const std::filesystem::path& path) {
+    check_readable(path);
+    try {
+        const Imf::InputFile file(path.c_str());
+        PictureNotes notes;
+        for (auto entry = file.header().begin(); entry != file.header().end(); ++entry) {
+            const auto* text = dynamic_cast<const Imf::StringAttribute*>(&entry.attribute());
+            if (text != nullptr) notes.emplace_back(entry.name(), text->value());
+        }
+        return notes;
+    } catch (const std::exception& error) {
+        throw Error("{}: cannot read as OpenEXR: {}", path.string(), one_line(error.what()));
+    }
 }
 
 std::vector<ExrChannel> read_exr_channels(const std::filesystem::path& path, int& width, int& height) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/image.h"
@@ -15,13 +16,19 @@ struct ExrChannel {
     std::vector<float> values;
 };
 
+// What a file says of its picture besides the pixels: names and texts, attributes of the header.
+using PictureNotes = std::vector<std::pair<std::string, std::string>>;
+
 // Writes 32-bit float channels, ZIP-compressed. Whole or not at all: written to a temporary name, then
 // renamed. Throws Error naming the file.
 void write_exr(const std::filesystem::path& path, int width, int height,
-               const std::vector<ExrChannel>& channels);
+               const std::vector<ExrChannel>& channels, const PictureNotes& notes = {});
 
 // Writes a 3-channel image as R, G, B.
-void write_exr(const std::filesystem::path& path, const Image& image);
+void write_exr(const std::filesystem::path& path, const Image& image, const PictureNotes& notes = {});
+
+// The notes of an EXR file, in the order of their names. Throws Error naming the file.
+PictureNotes read_exr_notes(const std::filesystem::path& path);
 
 // Reads R, G, B (or Y) of an EXR file, or of a Radiance .hdr file, as 3 channels of linear radiance.
 Image read_radiance(const std::filesystem::path& path);

@@ -96,6 +96,10 @@ class GlfwContext final : public Context {
 
 }  // namespace
 
+std::string describe_window_library() {
+    return glfwGetVersionString();
+}
+
 void Window::swap() {
     glfwSwapBuffers(handle_);
 }

@@ -9,6 +9,9 @@ struct GLFWwindow;
 
 namespace tarn {
 
+// GLFW's version and what it was built with; "none" in a library without windows.
+std::string describe_window_library();
+
 class Window {
   public:
     explicit Window(GLFWwindow* handle) : handle_(handle) {}

@@ -211,6 +211,27 @@ TEST(Disappointment, AnUnknownCameraListsThoseThatExist) {
     expect_one_line(reference + Arguments{"0,0,0,1,1,1,180"}, "180 degrees");
 }
 
+TEST(Version, IsSaidByTheProgramAndByWhatItWrites) {
+    const ProcessResult said = run_tarn({"--version"});
+    EXPECT_EQ(said.status, 0);
+    for (const char* word : {"tarn 0.", "(commit ", "Embree ", "GLFW "}) {
+        EXPECT_NE(said.out.find(word), std::string::npos) << said.out;
+    }
+    const TemporaryFolder folder;
+    const ProcessResult result =
+        run_tarn({"reference", cornell(), "--out", folder.file("a.exr"), "--json", folder.file("a.json"),
+                  "--size", "8x8", "--spp", "2", "--seed", "3"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const nlohmann::json report = nlohmann::json::parse(read_text(folder.file("a.json")));
+    const std::string commit = report["tarn"]["commit"];
+    EXPECT_NE(said.out.find(commit), std::string::npos);
+    const PictureNotes notes = read_exr_notes(folder.file("a.exr"));
+    ASSERT_EQ(notes.size(), 2u);
+    EXPECT_EQ(notes[0].first, "software");
+    EXPECT_EQ(said.out.substr(0, said.out.find('\n')), notes[0].second);
+    EXPECT_EQ(notes[1], (std::pair<std::string, std::string>("tarn.run", "seed=3 spp=2")));
+}
+
 // ---- Ctrl-C -------------------------------------------------------------------------------------
 
 TEST(Interrupt, TheReferenceWritesWhatItHas) {

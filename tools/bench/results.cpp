@@ -9,6 +9,7 @@
 #include "core/display.h"
 #include "core/error.h"
 #include "core/statistics.h"
+#include "core/version.h"
 #include "image_io/image_io.h"
 #include "metrics/flip.h"
 #include "metrics/heat_map.h"
@@ -98,7 +99,7 @@ Json describe_counts(const CellView& view, std::size_t pixel_count) {
 Json write_pictures(const Truth& truth, const Image& radiance, const std::filesystem::path& folder,
                     const std::string& stem) {
     const Image display = display_from_radiance(radiance, truth.exposure_ev);
-    write_exr(folder / (stem + ".exr"), radiance);
+    write_exr(folder / (stem + ".exr"), radiance, {{"software", describe_program()}});
     write_png(folder / (stem + ".png"), display);
     write_png(folder / (stem + "_flip.png"), heat_map(compute_ldr_flip(truth.display, display)));
     return {{"display", stem + ".png"}, {"radiance", stem + ".exr"}, {"flip", stem + "_flip.png"}};
@@ -201,7 +202,7 @@ Json describe_methods(const BenchPlan& plan, const std::vector<Cell>& cells, con
 Json describe_truth(const Truth& truth, const std::filesystem::path& picture_folder,
                     const std::string& picture_prefix) {
     const std::string stem = file_stem(picture_prefix + "_reference");
-    write_exr(picture_folder / (stem + ".exr"), truth.picture);
+    write_exr(picture_folder / (stem + ".exr"), truth.picture, {{"software", describe_program()}});
     write_png(picture_folder / (stem + ".png"), display_from_radiance(truth.picture, truth.exposure_ev));
     return {{"spp", truth.spp},
             {"relative_error", truth.relative_error},

@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "core/version.h"
 #include "image_io/file.h"
 
 namespace tarn {
@@ -28,8 +29,14 @@ void write_file(const std::filesystem::path& file, std::string_view bytes) {
     });
 }
 
+nlohmann::ordered_json describe_build() {
+    return {{"version", VERSION}, {"commit", COMMIT}, {"build_type", BUILD_TYPE}};
+}
+
 void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& json) {
-    write_file(file, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    nlohmann::ordered_json complete = json;
+    if (complete.is_object() && !complete.contains("tarn")) complete["tarn"] = describe_build();
+    write_file(file, complete.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace tarn

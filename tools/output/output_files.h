@@ -17,8 +17,11 @@ void check_output_folder(const std::filesystem::path& file);
 // Writes bytes whole or not at all. Throws Error that names the file.
 void write_file(const std::filesystem::path& file, std::string_view bytes);
 
+// Which Tarn this is: version, commit, build_type.
+nlohmann::ordered_json describe_build();
+
 // Writes `json` indented, in the order of its keys; bytes that are not UTF-8 (names of files) are replaced.
-// Throws as write_file does.
+// An object gets the key "tarn", describe_build(), where it has none. Throws as write_file does.
 void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& json);
 
 }  // namespace tarn

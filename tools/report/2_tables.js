@@ -108,6 +108,12 @@ function describeMachine(machine) {
     `Mesa ${machine.mesa}; Embree ${machine.embree}`;
 }
 
+// Results of programs that did not say which they are have no `tarn`.
+function describeProgram(results) {
+  const tarn = results.tarn;
+  return tarn ? `tarn ${tarn.version} (commit ${tarn.commit}, ${tarn.build_type}); ` : "";
+}
+
 function makeComparison(comparison) {
   const box = element("section", {}, element("h2", {}, `Against ${comparison.old}`), element("p", {}, comparison.summary));
   if (comparison.findings.length === 0) return box;

@@ -107,7 +107,8 @@ function makeFlightSection(flight, number) {
 
 function makePage() {
   const main = document.getElementById("main");
-  document.getElementById("machine").textContent = describeMachine(DOCUMENTS[0].machine);
+  document.getElementById("machine").textContent =
+    describeProgram(DOCUMENTS[0]) + describeMachine(DOCUMENTS[0].machine);
   DOCUMENTS.forEach((results, number) => {
     if (results.comparison) main.append(makeComparison(results.comparison));
     for (const flight of results.flythroughs || []) main.append(makeFlightSection(flight, number));

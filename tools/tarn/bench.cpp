@@ -206,6 +206,7 @@ void run_bench(BenchCommand& command) {
     if (!command.compare.empty()) old = load_results(command.compare);
     create_folder(command.out);
     Json results = {{"format", RESULTS_FORMAT}, {"version", RESULTS_VERSION}, {"kind", "bench"}};
+    results["tarn"] = describe_build();
     results["settings"] = describe_plan(command, plan);
     Json machine, scenes = Json::array();
     std::vector<WorkFolder> works;

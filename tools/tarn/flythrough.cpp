@@ -100,6 +100,7 @@ void write_results(const FlythroughCommand& command, RenderSession& session, con
     write_json(out / "report.json", report);
     if (!command.options.json_file.empty()) write_json(command.options.json_file, report);
     Json results = {{"format", RESULTS_FORMAT}, {"version", RESULTS_VERSION}, {"kind", "flythrough"}};
+    results["tarn"] = describe_build();
     results["machine"] = session.describe_machine();
     results["flythroughs"] = Json::array({described});
     write_json(out / "results.json", results);

@@ -5,6 +5,9 @@
 
 #include "commands.h"
 #include "core/error.h"
+#include "core/version.h"
+#include "platform/window.h"
+#include "rays/ray_tracer.h"
 
 namespace tarn {
 namespace {
@@ -12,6 +15,10 @@ namespace {
 int run(int argc, char** argv) {
     CLI::App app{
         "Tarn: an OpenGL 4.5 deferred rasterizer with resampled lights and Embree shadows, on the CPU."};
+    app.set_version_flag("--version", [] {
+        return fmt::format("{}\nEmbree {}, GLFW {}", describe_program(), describe_ray_library(),
+                           describe_window_library());
+    });
     app.require_subcommand(1);
     add_info_command(app);
     add_render_command(app);

@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "core/error.h"
+#include "core/version.h"
 #include "image_io/image_io.h"
 #include "interrupt.h"
 #include "output/output_files.h"
@@ -32,15 +33,17 @@ std::vector<float> take_channel(const Image& image, int channel) {
     return values;
 }
 
-void write_picture(const std::filesystem::path& path, const ReferenceResult& result) {
+void write_picture(const std::filesystem::path& path, const ReferenceResult& result, std::uint32_t seed) {
     const Image &mean = result.radiance, &variance = result.variance;
-    write_exr(path, mean.width, mean.height,
-              {{"R", take_channel(mean, 0)},
-               {"G", take_channel(mean, 1)},
-               {"B", take_channel(mean, 2)},
-               {"variance.R", take_channel(variance, 0)},
-               {"variance.G", take_channel(variance, 1)},
-               {"variance.B", take_channel(variance, 2)}});
+    write_exr(
+        path, mean.width, mean.height,
+        {{"R", take_channel(mean, 0)},
+         {"G", take_channel(mean, 1)},
+         {"B", take_channel(mean, 2)},
+         {"variance.R", take_channel(variance, 0)},
+         {"variance.G", take_channel(variance, 1)},
+         {"variance.B", take_channel(variance, 2)}},
+        {{"software", describe_program()}, {"tarn.run", fmt::format("seed={} spp={}", seed, result.spp)}});
 }
 
 void write_report(const ReferenceOptions& options, const ReferenceResult& result) {
@@ -80,7 +83,7 @@ void run_reference_command(ReferenceOptions& options) {
     settings.box_pixel_filter = options.pixel == "box";
     settings.cancel = &interrupt_flag();
     const ReferenceResult result = render_reference(loaded.world, *tracer, settings);
-    write_picture(options.out, result);
+    write_picture(options.out, result, options.scene.seed);
     if (!options.json.empty()) write_report(options, result);
     fmt::print(
         "{}: {} samples a pixel{}, relative error {}, {:.1f} Mrays in {:.1f} s, {} samples not finite\n",

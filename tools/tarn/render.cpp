@@ -5,6 +5,7 @@
 #include "core/display.h"
 #include "core/error.h"
 #include "core/log.h"
+#include "core/version.h"
 #include "image_io/image_io.h"
 #include "metrics/frame_mean.h"
 #include "session.h"
@@ -32,9 +33,24 @@ void check_output(const std::string& file) {
     check_output_folder(file);
 }
 
-void write_picture(const std::string& file, const Image& radiance, const std::optional<float>& exposure_ev) {
+// What decides the picture's bits besides scene, camera and time; contexts and threads do not.
+PictureNotes describe_picture(const RenderCommand& command) {
+    std::string settings;
+    for (const Setting& setting : setting_table()) {
+        settings += fmt::format("{}{}={}", settings.empty() ? "" : " ", setting.name,
+                                setting.format(command.options.settings));
+    }
+    return {{"software", describe_program()},
+            {"tarn.settings", settings},
+            {"tarn.run", fmt::format("seed={} frames={}{}", command.options.scene.seed, command.frames,
+                                     command.accumulate ? " accumulated" : "")}};
+}
+
+void write_picture(const RenderCommand& command, const Image& radiance) {
+    const std::string& file = command.out;
+    const std::optional<float>& exposure_ev = command.options.exposure_ev;
     if (is_exr(file)) {
-        write_exr(file, radiance);
+        write_exr(file, radiance, describe_picture(command));
     } else {
         write_png(file, display_from_radiance(radiance, exposure_ev.value_or(auto_exposure_ev(radiance))));
     }
@@ -73,7 +89,7 @@ void run_render(const RenderCommand& command) {
         progress.update(std::uint64_t(frame) + 1);
     }
     if (command.accumulate) radiance = mean.mean();
-    write_picture(command.out, radiance, command.options.exposure_ev);
+    write_picture(command, radiance);
     if (!command.options.json_file.empty()) {
         write_json(command.options.json_file, make_report(command.options, session, totals));
     }

@@ -15,6 +15,7 @@
 #include "tarn/scene.h"
 #include "tarn/settings.h"
 #include "tarn/values.h"
+#include "tarn/version.h"
 
 namespace tarn {
 using namespace api;
