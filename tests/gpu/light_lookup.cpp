@@ -126,7 +126,8 @@ class LightLookup : public testing::Test {
         frame.bind_uniform(BLOCK_FRAME);
         in.bind_storage(0);
         out.bind_storage(1);
-        scene.bind();
+        FrameRecorder recorder;
+        scene.bind(recorder);
         program.use();
         glDispatchCompute(GLuint(count / GROUP_SIZE), 1, 1);
         glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
