@@ -51,7 +51,6 @@ std::vector<uvec4> draw_on_gl(const World& world, const LightTree& light_tree,
     outputs.bind_storage(1);
     lights.bind_storage(2);
     tree.bind_storage(3);
-    program.set("light_count", world.lights.count);
     program.set("node_count", light_tree.node_count);
     program.use();
     glDispatchCompute(ITEM_COUNT / GROUP_SIZE, 1, 1);

@@ -21,7 +21,8 @@ std::set<std::string> list_files() {
     const std::filesystem::path folder = get_shader_root() / "passes";
     std::set<std::string> result;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-        if (entry.is_regular_file()) {
+        const bool is_hidden = entry.path().filename().string().starts_with(".");  // .clang-format
+        if (entry.is_regular_file() && !is_hidden) {
             result.insert(
                 std::filesystem::relative(entry.path(), folder).replace_extension().generic_string());
         }

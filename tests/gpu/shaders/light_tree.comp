@@ -19,7 +19,6 @@ layout(std430, binding = 1) writeonly buffer Outputs { uvec4 outputs[]; };
 layout(std430, binding = 2) readonly buffer Lights { uvec4 light_rows[]; };
 layout(std430, binding = 3) readonly buffer Tree { uvec4 tree_rows[]; };
 
-uniform uint light_count;
 uniform uint node_count;
 
 #define SCENE_HAS_TEXTURES false
@@ -32,10 +31,10 @@ uniform uint node_count;
 
 uvec4 fetch_light_row(uint row) { return light_rows[row]; }
 uvec4 fetch_light_tree_row(uint row) { return tree_rows[row]; }
-uint get_light_count() { return light_count; }
 uint get_light_tree_node_count() { return node_count; }
 
 // What drawing a light does not ask for.
+uint get_light_count() { return 0u; }
 uvec4 fetch_vertex_row(uint row) { return uvec4(0u); }
 uvec3 fetch_triangle(uint triangle) { return uvec3(0u); }
 uvec4 fetch_instance_row(uint row) { return uvec4(0u); }
