@@ -1,6 +1,8 @@
-// What single settings of direct light do: several samples a pixel, the boiling filter.
+// What single settings of direct light do: several samples a pixel, the boiling filter; and that each does
+// something.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/statistics.h"
@@ -177,6 +179,59 @@ TEST(BoilingFilter, DropsThoseThatOutweighTheirBlockAndNoOthers) {
     }
     EXPECT_GT(dropped, 10);
     EXPECT_EQ(wrong, 0);
+}
+
+// ---- Every setting
+// ---------------------------------------------------------------------------------------------------
+
+// The last of some frames: the camera stands still, then it walks.
+Image render_walk(const test::TestScene& scene, const RenderSettings& settings) {
+    Renderer renderer(scene.world, *scene.tracer, WIDTH_PX, HEIGHT_PX);
+    FrameInput input;
+    input.camera = test::first_camera(scene, double(WIDTH_PX) / HEIGHT_PX);
+    input.settings = settings;
+    Image last;
+    for (input.frame = 0; input.frame < 6; ++input.frame) {
+        if (input.frame >= 3) input.camera.position += 0.03f * input.camera.right;
+        last = renderer.read_radiance(renderer.render(input).radiance);
+    }
+    return last;
+}
+
+// Some values of a number, all choices of a choice.
+std::vector<double> list_values(const Setting& setting) {
+    // 0 often means "never": the next number is the least that does something.
+    if (setting.choices.empty()) {
+        return {setting.minimum, setting.minimum + 1.0, std::min(setting.maximum, 40.0)};
+    }
+    std::vector<double> values;
+    for (std::size_t i = 0; i < setting.choices.size(); ++i) values.push_back(double(i));
+    return values;
+}
+
+// A setting that is lost on its way from the table to the shader is one that no value of it shows.
+TEST(Settings, EachOneChangesThePictureWhereItApplies) {
+    const auto context = create_context({});
+    const auto scene = test::load_test_scene(test::content_file("cornell"));
+    std::vector<RenderSettings> bases(1);
+    for (const char* preset : {"balanced", "unbiased"}) bases.push_back(find_preset(preset).settings);
+    std::vector<Image> pictures;
+    for (const RenderSettings& base : bases) pictures.push_back(render_walk(*scene, base));
+    for (const Setting& setting : setting_table()) {
+        bool shows = false;
+        for (std::size_t b = 0; b < bases.size() && !shows; ++b) {
+            if (setting.applies && !setting.applies(bases[b])) continue;
+            for (const double value : list_values(setting)) {
+                RenderSettings changed = bases[b];
+                setting.set(changed, value);
+                if (render_walk(*scene, changed).values != pictures[b].values) {
+                    shows = true;
+                    break;
+                }
+            }
+        }
+        EXPECT_TRUE(shows) << "--" << setting.name << " changes nothing";
+    }
 }
 
 }  // namespace
