@@ -36,8 +36,6 @@ class History {
         value_ = std::move(value);
     }
 
-    void forget() { value_.reset(); }
-
   private:
     std::uint32_t frame_ = 0;
     std::optional<T> value_;

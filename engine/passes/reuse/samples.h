@@ -26,7 +26,6 @@ struct SampleSlot {
     std::size_t lane = 0;      // of the targets
     glm::vec3 target_weights;  // of the channels in the target (p-hat)
     CoverageKey shadow_key;    // decides what its rays meet
-    bool is_first() const { return index == 0 && lane == 0; }
 };
 
 // By which rules samples were weighed: those of other rules have other densities and are no history.
