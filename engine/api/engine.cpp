@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "api/exposure.h"
 #include "api/gl_state.h"
 #include "api/guard.h"
 #include "api/scene_state.h"
@@ -71,16 +70,6 @@ const std::string& Engine::device_name() const {
     return state_->context->device_info().renderer;
 }
 
-// What turns a finished frame into a picture for the eye.
-struct Screen {
-    Screen(int width_px, int height_px) : pass(programs, width_px, height_px) {}
-
-    ProgramLibrary programs;
-    FrameRecorder recorder;
-    DisplayPass pass;
-    AutoExposure exposure;
-};
-
 struct ViewState final : SceneFollower {
     ViewState(std::shared_ptr<EngineState> engine_state, std::shared_ptr<SceneState> scene_state,
               int width_px, int height_px)
@@ -94,7 +83,6 @@ struct ViewState final : SceneFollower {
         std::erase(scene->followers, this);
         const auto gl = engine->enter();
         last.reset();
-        screen.reset();
         renderer.reset();
     }
     ViewState(const ViewState&) = delete;
@@ -110,9 +98,11 @@ struct ViewState final : SceneFollower {
         input.frame = frame.number;
         input.seed = frame.seed;
         input.settings = SettingsAccess::values(frame.settings);
+        DisplayInput& display = input.display.emplace();
+        display.view = parse_display_view(frame.display.view);
+        display.exposure = {frame.display.exposure_ev, frame.display.elapsed_s};
         last.reset();
         last.emplace(renderer->render(input));
-        ++rendered;
     }
 
     const FrameOutput& output() const {
@@ -125,24 +115,17 @@ struct ViewState final : SceneFollower {
         return {image.width, image.height, std::move(image.values), describe_frame(*last, *renderer)};
     }
 
-    const Texture2D& display(std::optional<float> exposure_ev) {
-        const FrameOutput& frame = output();
-        if (!screen) screen.emplace(renderer->width_px(), renderer->height_px());
-        const float ev = exposure_ev ? *exposure_ev : screen->exposure.follow(frame.radiance, rendered);
-        screen->recorder.begin();
-        const Texture2D& picture =
-            screen->pass.record(screen->recorder, frame.radiance, frame.gbuffer, DisplayView::RADIANCE, ev);
-        screen->recorder.end();
-        return picture;
-    }
-
     std::shared_ptr<EngineState> engine;
     std::shared_ptr<SceneState> scene;
     std::unique_ptr<Renderer> renderer;
     std::optional<FrameOutput> last;
-    std::uint64_t rendered = 0;  // frames
-    std::optional<Screen> screen;
 };
+
+std::vector<DisplayViewInfo> list_display_views() {
+    std::vector<DisplayViewInfo> result;
+    for (const tarn::DisplayViewInfo& view : display_views()) result.push_back({view.name, view.sentence});
+    return result;
+}
 
 View::View(const Engine& engine, const Scene& scene, int width_px, int height_px) {
     guard([&] {
@@ -189,19 +172,24 @@ Picture View::read() const {
     });
 }
 
-unsigned View::texture(std::optional<float> exposure_ev) {
+unsigned View::texture() const {
+    return guard([&] { return state_->output().display->id(); });
+}
+
+float View::exposure_ev() const {
     return guard([&] {
         const auto gl = state_->engine->enter();
-        return state_->display(exposure_ev).id();
+        state_->output();
+        return state_->renderer->read_exposure_ev();
     });
 }
 
-void View::present(int framebuffer_width_px, int framebuffer_height_px, std::optional<float> exposure_ev) {
+void View::present(int framebuffer_width_px, int framebuffer_height_px) {
     guard([&] {
         const auto gl = state_->engine->enter();
         if (!gl) throw tarn::Error("the engine's own context has no window to present a picture in");
-        state_->display(exposure_ev);
-        state_->screen->pass.present({framebuffer_width_px, framebuffer_height_px}, gl->draw_framebuffer());
+        tarn::present(*state_->output().display, {framebuffer_width_px, framebuffer_height_px},
+                      gl->draw_framebuffer());
     });
 }
 

@@ -20,6 +20,31 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
+void set_culling(Culling culling) {
+    if (culling == Culling::NONE) {
+        glDisable(GL_CULL_FACE);
+        return;
+    }
+    glEnable(GL_CULL_FACE);
+    glCullFace(GL_BACK);
+    // Clip space has +Y down, which turns counter-clockwise into clockwise.
+    glFrontFace(culling == Culling::BACK ? GL_CW : GL_CCW);
+}
+
+void draw_batches(const std::vector<DrawBatch>& batches) {
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_GREATER);
+    for (const DrawBatch& batch : batches) {
+        set_culling(batch.culling);
+        glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
+                                    reinterpret_cast<const void*>(batch.offset_bytes), batch.count, 0);
+    }
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_DEPTH_TEST);
+}
+
 // A pass that runs several times a frame is one row.
 void add_timing(FrameTimings& timings, const PassTiming& timing) {
     for (PassTiming& pass : timings.passes) {
@@ -169,12 +194,12 @@ void PassRecorder::dispatch(const Program& program, const glm::ivec2& size_px) {
 }
 
 void PassRecorder::draw(const Program& program, const VertexArray& vertices, const Buffer& commands,
-                        const std::function<void()>& draws) {
+                        const std::vector<DrawBatch>& batches) {
     check_constants(program);
     program.use();
     vertices.bind();
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.id());
-    frame_.time_device_work(name_, draws);
+    frame_.time_device_work(name_, [&] { draw_batches(batches); });
     note_traffic(false);
 }
 

@@ -33,6 +33,16 @@ namespace tarn {
 
 class FrameRecorder;
 
+// Which triangles are left out by their side; a mirroring transform turns triangles inside out.
+enum class Culling { NONE, BACK, BACK_MIRRORED };
+
+// Consecutive commands of an indirect draw that share their state.
+struct DrawBatch {
+    Culling culling = Culling::NONE;
+    std::size_t offset_bytes = 0;  // of the first command
+    int count = 0;
+};
+
 // Values of a frame, in pooled memory.
 using Rows = std::shared_ptr<RowBuffer>;
 using Picture = std::shared_ptr<Texture2D>;
@@ -66,13 +76,6 @@ class PassRecorder {
     }
     // A table that the CPU filled. What a pass reads of it is no traffic that could be told.
     PassRecorder& read_table(unsigned unit, const RowBuffer& rows);
-    // What a finished frame left, whatever recorder made it.
-    template <class Texture>
-    PassRecorder& read_finished(unsigned unit, const Texture& texture) {
-        texture.bind(unit);
-        bytes_read_ += texture.size_bytes();
-        return *this;
-    }
     // The pass's own constants (shared/interface/constants), a copy of which it gets.
     template <class T>
     PassRecorder& constants(const T& values) {
@@ -102,9 +105,10 @@ class PassRecorder {
 
     // Runs a compute shader of 8 x 8 groups once per pixel.
     void dispatch(const Program& program, const glm::ivec2& size_px);
-    // Runs `draws`, which issues indirect draw calls: from `commands`, with `vertices` and `program` in use.
+    // Draws the batches of indirect `commands` (as glMultiDrawElementsIndirect reads them), indexed by `vertices`.
+    // Depth is reversed: the greater one is nearer. Row 0 of the target is on top.
     void draw(const Program& program, const VertexArray& vertices, const Buffer& commands,
-              const std::function<void()>& draws);
+              const std::vector<DrawBatch>& batches);
     // Runs work of the CPU over buffers that it shares with GL: waits for the device before, and is timed
     // alone.
     void run_on_cpu(const std::function<void()>& work);

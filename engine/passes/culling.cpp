@@ -9,16 +9,18 @@ namespace {
 using Plane = glm::vec4;
 
 // Left, right, top, bottom and the plane behind the camera. No far plane: the depth range is infinite.
-std::array<Plane, 5> frustum_planes(const CameraRecord& camera) {
+std::array<Plane, 5> frustum_planes(const CameraRecord& camera, const glm::vec2& margin) {
     const glm::vec3 right = camera.right / glm::dot(camera.right, camera.right);
     const glm::vec3 up = camera.up / glm::dot(camera.up, camera.up);
-    // x / depth (orthographic: x) within [-1, 1], and the same for y.
+    // x / depth (orthographic: x) within [-1, 1] and the margin, and the same for y.
+    const glm::vec2 reach = 1.0f + margin;
     const glm::vec3 depth = camera.orthographic ? glm::vec3(0.0f) : camera.forward;
-    const float constant = camera.orthographic ? 1.0f : 0.0f;
-    std::array<glm::vec3, 5> normals = {depth - right, depth + right, depth - up, depth + up, camera.forward};
+    std::array<glm::vec3, 5> normals = {depth * reach.x - right, depth * reach.x + right,
+                                        depth * reach.y - up, depth * reach.y + up, camera.forward};
     std::array<Plane, 5> planes;
     for (int i = 0; i < 5; ++i) {
-        const float offset = (i < 4 ? constant : 0.0f) - glm::dot(normals[i], camera.position);
+        const float constant = i < 4 && camera.orthographic ? reach[i / 2] : 0.0f;
+        const float offset = constant - glm::dot(normals[i], camera.position);
         planes[i] = Plane(normals[i], offset);
     }
     return planes;
@@ -43,8 +45,9 @@ std::array<Plane, 5> to_object_space(const std::array<Plane, 5>& planes, const g
 
 }  // namespace
 
-std::vector<TriangleRange> find_visible_ranges(const World& world, const CameraRecord& camera) {
-    const std::array<Plane, 5> planes_ws = frustum_planes(camera);
+std::vector<TriangleRange> find_visible_ranges(const World& world, const CameraRecord& camera,
+                                               const glm::vec2& margin) {
+    const std::array<Plane, 5> planes_ws = frustum_planes(camera, margin);
     std::vector<TriangleRange> ranges;
     for (std::uint32_t i = 0; i < world.instances.size(); ++i) {
         const WorldInstance& instance = world.instances[i];

@@ -1,9 +1,9 @@
 #include "passes/display.h"
 
 #include <array>
-#include <cmath>
 
 #include "core/error.h"
+#include "gl/framebuffer.h"
 #include "shared/interface/bindings.h"
 #include "shared/interface/constants/display.h"
 
@@ -42,29 +42,26 @@ DisplayView parse_display_view(const std::string& name) {
     throw Error("view '{}' is none of: {}", name, list_display_views());
 }
 
-DisplayPass::DisplayPass(ProgramLibrary& programs, int width_px, int height_px)
-    : programs_(programs),
-      picture_("display/picture", width_px, height_px, GL_RGBA8),
-      framebuffer_("display/picture", {&picture_}, nullptr) {}
-
-const Texture2D& DisplayPass::record(FrameRecorder& frame, const Texture2D& radiance, const GBuffer& gbuffer,
-                                     DisplayView view, float exposure_ev) {
-    const Program& program = programs_.compute(DisplayVariant::PATH, DisplayVariant{view}.defines());
-    frame.pass("display")
-        .read_finished(UNIT_PASS_A, radiance)
-        .read_finished(UNIT_PASS_B, *gbuffer.seen)
-        .read_finished(UNIT_SURFACE, gbuffer.surface())
-        .constants(DisplayConstants{std::exp2(exposure_ev)})
-        .write_image(0, picture_)
-        .dispatch(program, {picture_.width_px(), picture_.height_px()});
-    return picture_;
+Picture show_frame(const FrameContext& frame, DisplayView view, const Picture& radiance,
+                   const GBuffer& gbuffer, const Exposure& exposure) {
+    const Picture shown = frame.recorder.take_picture("display", frame.output_px, GL_RGBA8);
+    PassRecorder pass = frame.pass("display");
+    read_gbuffer(pass, gbuffer)
+        .read(UNIT_PASS_A, radiance)
+        .read(UNIT_PASS_B, gbuffer.seen)
+        .read(UNIT_PASS_C, exposure)
+        .constants(DisplayConstants{std::uint32_t(frame.output_px.x), std::uint32_t(frame.output_px.y)})
+        .write_image(0, *shown)
+        .dispatch(frame.compute(DisplayVariant{view}), frame.output_px);
+    return shown;
 }
 
-void DisplayPass::present(const glm::ivec2& window_size_px, unsigned framebuffer) const {
-    const bool same_size = window_size_px == glm::ivec2(picture_.width_px(), picture_.height_px());
+void present(const Texture2D& picture, const glm::ivec2& window_size_px, unsigned framebuffer) {
+    const bool same_size = window_size_px == glm::ivec2(picture.width_px(), picture.height_px());
+    const Framebuffer source("display/present", {&picture}, nullptr);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
     // Row 0 of our pictures is the top one, row 0 of a window the bottom one.
-    glBlitNamedFramebuffer(framebuffer_.id(), framebuffer, 0, 0, picture_.width_px(), picture_.height_px(), 0,
+    glBlitNamedFramebuffer(source.id(), framebuffer, 0, 0, picture.width_px(), picture.height_px(), 0,
                            window_size_px.y, window_size_px.x, 0, GL_COLOR_BUFFER_BIT,
                            same_size ? GL_NEAREST : GL_LINEAR);
 }

@@ -1,5 +1,5 @@
-// The last pass: radiance, or another view of the frame, as display-encoded colours, and from there to a
-// window.
+// The last pass of a frame that is shown: radiance, or another view of it, as display-encoded colours, and from
+// there to a window.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -7,10 +7,8 @@
 #include <span>
 #include <string>
 
-#include "frame/frame_recorder.h"
-#include "gl/program_library.h"
+#include "passes/exposure.h"
 #include "passes/gbuffer.h"
-#include "plan/shader_variants.h"
 
 namespace tarn {
 
@@ -28,22 +26,12 @@ std::string list_display_views();
 // The view of that name. Throws Error that lists the names.
 DisplayView parse_display_view(const std::string& name);
 
-class DisplayPass {
-  public:
-    DisplayPass(ProgramLibrary& programs, int width_px, int height_px);
+// A view of the frame, RGBA8 at its output size, row 0 on top. `radiance` has that size too. Radiance and emission are
+// exposed and run through shared/math/display.h, as PNG files are.
+Picture show_frame(const FrameContext& frame, DisplayView view, const Picture& radiance,
+                   const GBuffer& gbuffer, const Exposure& exposure);
 
-    // Shows a finished frame: RGBA8, row 0 on top. Radiance and emission are scaled by 2^exposure_ev and run
-    // through shared/math/display.h, as PNG files are.
-    const Texture2D& record(FrameRecorder& frame, const Texture2D& radiance, const GBuffer& gbuffer,
-                            DisplayView view, float exposure_ev);
-
-    // Draws the last picture over the whole of a framebuffer (0: the window's), scaled to its size.
-    void present(const glm::ivec2& window_size_px, unsigned framebuffer = 0) const;
-
-  private:
-    ProgramLibrary& programs_;
-    Texture2D picture_;
-    Framebuffer framebuffer_;
-};
+// Draws `picture` over the whole of a framebuffer (0: the window's), scaled to its size.
+void present(const Texture2D& picture, const glm::ivec2& window_size_px, unsigned framebuffer = 0);
 
 }  // namespace tarn

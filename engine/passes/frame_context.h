@@ -28,11 +28,13 @@ struct FrameContext {
     const FramePlan& plan;
     const RenderSettings& settings;
     const Defines& scene_defines;  // of all shaders that know the scene: its features, and what tests plant
-    glm::ivec2 size_px;
+    glm::ivec2 size_px;            // of the surfaces and their light
+    glm::ivec2 output_px;          // of the picture
+    glm::vec2 jitter_px{0.0f};     // where in a pixel its ray goes through, from the centre
     std::uint32_t frame = 0;
     std::uint32_t seed = 0;
-    std::optional<PreviousRays>
-        previous;            // how the last frame's rays were answered; none: no history is valid
+    // How the last frame's rays were answered; none: no history is valid.
+    std::optional<PreviousRays> previous = std::nullopt;
     bool has_moved = false;  // camera, lights or geometry, since the last frame
 
     PassRecorder pass(const std::string& name) const { return recorder.pass(name); }

@@ -19,9 +19,6 @@ struct DrawCommand {
     GLuint base_instance;  // index into the draw ids
 };
 
-// The state that triangles of a bucket share.
-enum class Culling { NONE, BACK, BACK_MIRRORED };
-
 Culling culling_of(const World& world, std::uint32_t instance) {
     if ((world.flags_of(instance) & MATERIAL_DOUBLE_SIDED) != 0u) return Culling::NONE;
     return world.instances[instance].mirrored ? Culling::BACK_MIRRORED : Culling::BACK;
@@ -29,17 +26,6 @@ Culling culling_of(const World& world, std::uint32_t instance) {
 
 bool needs_coverage(const World& world, std::uint32_t instance) {
     return (world.flags_of(instance) & (MATERIAL_ALPHA_MASK | MATERIAL_ALPHA_BLEND)) != 0u;
-}
-
-void set_culling(Culling culling) {
-    if (culling == Culling::NONE) {
-        glDisable(GL_CULL_FACE);
-        return;
-    }
-    glEnable(GL_CULL_FACE);
-    glCullFace(GL_BACK);
-    // Clip space has +Y down, which turns counter-clockwise into clockwise.
-    glFrontFace(culling == Culling::BACK ? GL_CW : GL_CCW);
 }
 
 // A buffer that grows by doubling.
@@ -92,8 +78,9 @@ GBufferPass::GBufferPass(const GpuScene& gpu_scene) : vertex_array_("gbuffer/ver
 
 GBufferPass::~GBufferPass() = default;
 
-void GBufferPass::collect_draws(const World& world, const CameraRecord& camera) {
-    const std::vector<TriangleRange> ranges = find_visible_ranges(world, camera);
+void GBufferPass::collect_draws(const FrameContext& frame, const World& world, const CameraRecord& camera) {
+    const glm::vec2 margin = glm::abs(frame.jitter_px) * 2.0f / glm::vec2(frame.size_px);
+    const std::vector<TriangleRange> ranges = find_visible_ranges(world, camera, margin);
     std::vector<glm::uvec2> ids;
     for (Bucket& bucket : buckets_) bucket.commands.clear();
     statistics_ = {};
@@ -127,17 +114,16 @@ void GBufferPass::collect_draws(const World& world, const CameraRecord& camera) 
     }
 }
 
-void GBufferPass::issue_draws(bool coverage) const {
+std::vector<DrawBatch> GBufferPass::list_batches(bool coverage) const {
+    std::vector<DrawBatch> batches;
     std::size_t offset_bytes = 0;
     for (const Bucket& bucket : buckets_) {
         if (bucket.coverage == coverage && !bucket.commands.empty()) {
-            set_culling(bucket.culling);
-            glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
-                                        reinterpret_cast<const void*>(offset_bytes),
-                                        GLsizei(bucket.commands.size()), sizeof(DrawCommand));
+            batches.push_back({bucket.culling, offset_bytes, int(bucket.commands.size())});
         }
         offset_bytes += bucket.commands.size() * sizeof(DrawCommand);
     }
+    return batches;
 }
 
 Picture GBufferPass::raster(const FrameContext& frame) {
@@ -145,31 +131,19 @@ Picture GBufferPass::raster(const FrameContext& frame) {
         fmt::format("{} x {}", frame.size_px.x, frame.size_px.y), [&] { return Target(frame.size_px); });
     target->seen.clear(glm::uvec4(INVALID_INDEX));
     target->depth.clear(glm::vec4(0.0f));
-    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-    glEnable(GL_DEPTH_TEST);
-    glDepthMask(GL_TRUE);
-    glDepthFunc(GL_GREATER);
-    const auto draw = [&](bool coverage) {
+    for (const bool coverage : {false, true}) {
+        const std::vector<DrawBatch> batches = list_batches(coverage);
+        if (coverage && batches.empty()) continue;
         frame.pass(coverage ? "gbuffer/raster_coverage" : "gbuffer/raster")
             .write_target(target->framebuffer, {&target->seen})
-            .draw(frame.graphics(RasterVariant{coverage}), vertex_array_, *commands_,
-                  [&] { issue_draws(coverage); });
-    };
-    const auto has_draws = [&](bool coverage) {
-        return std::any_of(buckets_.begin(), buckets_.end(), [&](const Bucket& bucket) {
-            return bucket.coverage == coverage && !bucket.commands.empty();
-        });
-    };
-    draw(false);
-    if (has_draws(true)) draw(true);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_DEPTH_TEST);
+            .draw(frame.graphics(RasterVariant{coverage}), vertex_array_, *commands_, batches);
+    }
     return Picture(target, &target->seen);
 }
 
 GBuffer GBufferPass::record(const FrameContext& frame, const World& world, const CameraRecord& camera,
                             std::optional<Previous<Surfaces>> previous) {
-    collect_draws(world, camera);
+    collect_draws(frame, world, camera);
     const Picture seen = raster(frame);
     return {seen, resolve(frame, seen), std::move(previous)};
 }

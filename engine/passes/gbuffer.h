@@ -58,8 +58,8 @@ class GBufferPass {
     struct Bucket;
     struct Target;
 
-    void collect_draws(const World& world, const CameraRecord& camera);
-    void issue_draws(bool coverage) const;
+    void collect_draws(const FrameContext& frame, const World& world, const CameraRecord& camera);
+    std::vector<DrawBatch> list_batches(bool coverage) const;
     Picture raster(const FrameContext& frame);
     Surfaces resolve(const FrameContext& frame, const Picture& seen);
 

@@ -69,6 +69,8 @@ FramePlan make_plan(const FeatureSurvey& survey, const RenderSettings& settings)
     plan.features = survey.features;
     plan.feature_reasons = survey.reasons;
     plan.direct = plan_direct(settings.direct);
+    const DebugView view = plan.direct.view;
+    plan.composite.light_alone = view == DebugView::VISIBILITY || view == DebugView::SAMPLES;
     plan.passes = list_passes(plan.direct);
     return plan;
 }

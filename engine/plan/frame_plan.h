@@ -55,6 +55,7 @@ struct FramePlan {
     SceneFeatures features;
     std::vector<FeatureReason> feature_reasons;
     DirectPlan direct;
+    CompositeVariant composite;
     std::vector<PlannedPass> passes;  // those that not every frame runs
 };
 

@@ -139,6 +139,14 @@ std::vector<ShadeVariant> ShadeVariant::all() {
     return result;
 }
 
+Defines CompositeVariant::defines() const {
+    return light_alone ? Defines{"TARN_LIGHT_ALONE"} : Defines{};
+}
+
+std::vector<CompositeVariant> CompositeVariant::all() {
+    return {{false}, {true}};
+}
+
 Defines DisplayVariant::defines() const {
     constexpr std::array<const char*, DISPLAY_VIEW_COUNT> DEFINES = {
         "TARN_VIEW_RADIANCE",       "TARN_VIEW_LUMINANCE",         "TARN_VIEW_ALBEDO",
@@ -159,6 +167,7 @@ std::vector<ShaderFamily> shader_families() {
             family_of<CandidatesVariant>(), family_of<InitialVisibilityVariant>(),
             family_of<TemporalVariant>(),   family_of<BoilingFilterVariant>(),
             family_of<SpatialVariant>(),    family_of<ShadeVariant>(),
+            family_of<CompositeVariant>(),  family_of<EnlargeVariant>(),    family_of<ExposureVariant>(),
             family_of<DisplayVariant>()};
 }
 

@@ -110,6 +110,14 @@ struct ShadeVariant {
     static std::vector<ShadeVariant> all();
 };
 
+struct CompositeVariant {
+    static constexpr const char* PATH = "composite";
+    static constexpr bool IS_OF_SCENE = false;
+    bool light_alone = false;  // without emission
+    Defines defines() const;
+    static std::vector<CompositeVariant> all();
+};
+
 // What a window may show of a frame.
 enum class DisplayView {
     RADIANCE,
@@ -129,6 +137,15 @@ struct DisplayVariant {
     DisplayView view = DisplayView::RADIANCE;
     Defines defines() const;
     static std::vector<DisplayVariant> all();
+};
+
+struct ExposureVariant : PlainVariant<ExposureVariant> {
+    static constexpr bool IS_OF_SCENE = false;
+    static constexpr const char* PATH = "exposure";
+};
+struct EnlargeVariant : PlainVariant<EnlargeVariant> {
+    static constexpr bool IS_OF_SCENE = false;
+    static constexpr const char* PATH = "enlarge";
 };
 
 // One entry shader: all defines that its passes may ask for besides the scene's.

@@ -1,10 +1,12 @@
-// THE FRAME: from the scene's tables to radiance, stage by stage. Each stage takes values and returns values;
+// THE FRAME: from the scene's tables to radiance and what is shown of it, stage by stage. Each stage takes values and returns values;
 // what the next frame finds is what `history_` keeps.
+#include "passes/composite.h"
 #include "passes/direct/brdf_candidates.h"
 #include "passes/direct/candidates.h"
 #include "passes/direct/light_tiles.h"
 #include "passes/direct/reuse.h"
 #include "passes/direct/shade.h"
+#include "passes/enlarge.h"
 #include "passes/trace_rays.h"
 #include "renderer/renderer.h"
 #include "shared/math/random.h"
@@ -28,7 +30,25 @@ std::vector<SampleSlot> list_slots(const FrameContext& frame) {
 
 }  // namespace
 
-Renderer::Values Renderer::record_frame(const FrameContext& frame, const CameraRecord& camera) {
+Renderer::Values Renderer::record_frame(const FrameContext& frame, const FrameInput& input) {
+    const GBuffer gbuffer =
+        gbuffer_.record(frame, world_, input.camera, find_previous(frame, history_.surfaces));
+    const ReflectedLight direct = light_directly(frame, gbuffer);
+    const Picture radiance = enlarge(frame, composite(frame, gbuffer, direct));
+    Picture display;
+    if (input.display) display = show(frame, *input.display, radiance, gbuffer);
+    history_.surfaces.keep(frame.frame, gbuffer.surfaces);
+    return {gbuffer, radiance, display};
+}
+
+Picture Renderer::show(const FrameContext& frame, const DisplayInput& input, const Picture& radiance,
+                       const GBuffer& gbuffer) {
+    exposure_ = find_exposure(frame, radiance, input.exposure, find_previous(frame, history_.exposure));
+    history_.exposure.keep(frame.frame, exposure_);
+    return show_frame(frame, input.view, radiance, gbuffer, exposure_);
+}
+
+ReflectedLight Renderer::light_directly(const FrameContext& frame, const GBuffer& gbuffer) {
     const DirectPlan& plan = frame.plan.direct;
     const ReusePlan& reuse = plan.reuse;
     const std::size_t pixels = frame.pixel_count();
@@ -36,10 +56,9 @@ Renderer::Values Renderer::record_frame(const FrameContext& frame, const CameraR
 
     CandidateSources sources;
     if (plan.light_tree) sources.tree = gpu_light_tree_.rows();
-    const GBuffer gbuffer = gbuffer_.record(frame, world_, camera, find_previous_surfaces(frame, history_));
     if (plan.light_tiles) sources.tiles = draw_light_tiles(frame);
 
-    Picture radiance;
+    ReflectedLight light;
     for (const SampleSlot& slot : list_slots(frame)) {
         if (plan.brdf_rays && slot.lane == 0) {
             sources.brdf_hits = trace_brdf_candidates(frame, gbuffer, slot);
@@ -60,14 +79,14 @@ Renderer::Values Renderer::record_frame(const FrameContext& frame, const CameraR
         if (reuse.filters_boiling) over_time = filter_direct_boiling(frame, std::move(over_time));
 
         Samples over_space = over_time;
-        Picture light;
+        ReflectedLight summed;
         for (int i = 0; i < reuse.spatial_steps; ++i) {
             const bool is_last = i + 1 == reuse.spatial_steps;
             if (is_last && reuse.shades_all_samples) {
-                light = frame.recorder.take_picture("direct/light", frame.size_px, GL_RGBA32F);
+                summed = take_reflected_light(frame, "direct/summed");
             }
             const ReuseInput input{gbuffer, slot, over_space, is_last && reuse.tests_chosen_samples,
-                                   light ? &light : nullptr};
+                                   summed ? &summed : nullptr};
             over_space = reuse_direct_over_space(frame, input, i);
         }
         if (reuse.runs()) {
@@ -79,10 +98,9 @@ Renderer::Values Renderer::record_frame(const FrameContext& frame, const CameraR
         if (reuse.tests_chosen_samples) {
             seen = trace_visibility(frame, "visibility", over_space.rays, pixels, slot.shadow_key);
         }
-        radiance = shade_direct(frame, gbuffer, slot, {&over_space, seen, light}, radiance);
+        light = shade_direct(frame, gbuffer, slot, {&over_space, seen, summed}, light);
     }
-    history_.surfaces.keep(frame.frame, gbuffer.surfaces);
-    return {gbuffer, radiance};
+    return light;
 }
 
 }  // namespace tarn

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "frame/history.h"
+#include "passes/exposure.h"
 #include "passes/gbuffer.h"
 #include "passes/reuse/samples.h"
 #include "rays/ray_tracer.h"
@@ -14,17 +15,19 @@ namespace tarn {
 struct FrameHistory {
     std::optional<PreviousRays> rays;  // which the last frame was; none: there is nothing to look back at
     CameraRecord camera{};
+    glm::vec2 jitter_px{0.0f};
     History<Surfaces> surfaces;
+    History<Exposure> exposure;
     std::vector<History<KeptSamples>> direct;  // one a target
 
     void forget() { *this = {}; }
 };
 
 // What the last frame saw, where this one follows it.
-inline std::optional<Previous<Surfaces>> find_previous_surfaces(const FrameContext& frame,
-                                                                const FrameHistory& history) {
+template <class T>
+std::optional<Previous<T>> find_previous(const FrameContext& frame, const History<T>& history) {
     if (!frame.previous) return std::nullopt;
-    return history.surfaces.of_frame(frame.previous->key.frame);
+    return history.of_frame(frame.previous->key.frame);
 }
 
 }  // namespace tarn

@@ -98,6 +98,7 @@ void Renderer::upload_frame_block(const FrameInput& input) {
     block.frame_history =
         glm::uvec4(gpu_scene_.previous_first_instance(), gpu_scene_.lights().previous_first_row(),
                    gpu_scene_.lights().remap_first_row(), 0u);
+    block.frame_jitter = glm::vec4(input.jitter_px, history_.jitter_px);
     block.frame_tables =
         glm::uvec4(gpu_light_tree_.node_count(), gpu_scene_.lights().instance_lookup_first_row(),
                    gpu_scene_.lights().slot_lookup_first_row(), 0u);
@@ -114,30 +115,39 @@ FrameOutput Renderer::render(const FrameInput& input) {
 
     RayCounts rays;
     FrameContext frame{recorder_, programs_,      tracer_,        counters_, rays,
-                       plan_,     input.settings, scene_defines_, size_px_};
+                       plan_,     input.settings, scene_defines_, size_px_,
+                       input.output_px.value_or(size_px_)};
+    frame.jitter_px = input.jitter_px;
     frame.frame = input.frame;
     frame.seed = input.seed;
     const bool follows = history_.rays && input.frame == history_.rays->key.frame + 1;
     if (follows) frame.previous = history_.rays;
     frame.has_moved = has_moved(input.camera);
 
-    const Values values = record_frame(frame, input.camera);
+    const Values values = record_frame(frame, input);
     rejected_rays_ += rays.shadow.rejected;
     const FrameTimings timings = recorder_.end();
-    shown_ = values.radiance;
+    radiance_ = values.radiance;
     gpu_scene_.advance(world_);
     history_.camera = input.camera;
+    history_.jitter_px = input.jitter_px;
     history_.rays = PreviousRays{tracer_.geometry_revision(), {input.frame, input.seed, RAY_SHADOW}};
-    return {*shown_, values.gbuffer, timings, rays.shadow, rays.closest, gbuffer_.statistics()};
+    return {*radiance_,  values.display, values.gbuffer, timings,
+            rays.shadow, rays.closest,   gbuffer_.statistics()};
 }
 
 Image Renderer::read_radiance(const Texture2D& radiance) const {
     const std::vector<glm::vec4> texels = radiance.download<glm::vec4>();
-    Image image(size_px_.x, size_px_.y, 3);
+    Image image(radiance.width_px(), radiance.height_px(), 3);
     for (std::size_t i = 0; i < texels.size(); ++i) {
         for (int channel = 0; channel < 3; ++channel) image.values[3 * i + channel] = texels[i][channel];
     }
     return image;
+}
+
+float Renderer::read_exposure_ev() const {
+    if (!exposure_) return 0.0f;
+    return glm::uintBitsToFloat(exposure_->buffer().download<glm::uvec4>()[0].y);
 }
 
 std::map<std::string, std::uint64_t> Renderer::read_counters() const {

@@ -11,8 +11,11 @@
 #include "core/image.h"
 #include "frame/frame_recorder.h"
 #include "gl/program_library.h"
+#include "passes/display.h"
+#include "passes/exposure.h"
 #include "passes/frame_context.h"
 #include "passes/gbuffer.h"
+#include "passes/reflected_light.h"
 #include "passes/gpu_light_tree.h"
 #include "passes/gpu_scene.h"
 #include "plan/frame_plan.h"
@@ -22,15 +25,26 @@
 
 namespace tarn {
 
+// What a frame shows besides its radiance.
+struct DisplayInput {
+    DisplayView view = DisplayView::RADIANCE;
+    ExposureInput exposure;
+};
+
 struct FrameInput {
     CameraRecord camera;
     std::uint32_t frame = 0;
     std::uint32_t seed = 0;
     RenderSettings settings;
+    // Where in a pixel its ray goes through, from the centre, pixels; within +-0.5 pixels stay what they are.
+    glm::vec2 jitter_px{0.0f};
+    std::optional<glm::ivec2> output_px;  // of radiance and display; none: as large as it is drawn
+    std::optional<DisplayInput> display;  // none: nothing is shown
 };
 
 struct FrameOutput {
     const Texture2D& radiance;  // RGBA32F, row 0 on top, W sr^-1 m^-2; until the next frame
+    Picture display;            // RGBA8: exposed, tone-mapped, sRGB; null: nothing is shown
     GBuffer gbuffer;
     FrameTimings timings;
     RayBatchResult shadow_rays;
@@ -56,6 +70,9 @@ class Renderer {
     // Forgets the last frame, as after a cut.
     void reset_history() { history_.forget(); }
 
+    // The exposure that the last shown frame had, EV; 0 before the first one. Waits for the device.
+    float read_exposure_ev() const;
+
     // Waits and reads a radiance texture back as 3 channels.
     Image read_radiance(const Texture2D& radiance) const;
 
@@ -74,10 +91,14 @@ class Renderer {
     struct Values {
         GBuffer gbuffer;
         Picture radiance;
+        Picture display;
     };
 
     void survey();
-    Values record_frame(const FrameContext& frame, const CameraRecord& camera);
+    Values record_frame(const FrameContext& frame, const FrameInput& input);
+    ReflectedLight light_directly(const FrameContext& frame, const GBuffer& gbuffer);
+    Picture show(const FrameContext& frame, const DisplayInput& input, const Picture& radiance,
+                 const GBuffer& gbuffer);
     void fit_light_tree();
     void upload_frame_block(const FrameInput& input);
     bool has_moved(const CameraRecord& camera) const;
@@ -101,7 +122,8 @@ class Renderer {
     Buffer counters_;
     GBufferPass gbuffer_;
     FrameHistory history_;
-    Picture shown_;  // the latest radiance
+    Picture radiance_;   // the latest one
+    Exposure exposure_;  // that of the latest frame that was shown
     std::uint64_t rejected_rays_ = 0;
 };
 

@@ -19,7 +19,7 @@ CameraRecord frame_camera() {
 }
 
 PixelRay pixel_ray(ivec2 pixel) {
-    return camera_ray(frame_camera(), vec2(pixel) + 0.5f, vec2(frame_size.xy));
+    return camera_ray(frame_camera(), vec2(pixel) + 0.5f + frame_jitter.xy, vec2(frame_size.xy));
 }
 
 uint pixel_index(ivec2 pixel) { return uint(pixel.y) * frame_size.x + uint(pixel.x); }

@@ -26,7 +26,7 @@ ivec2 project_to_previous(vec3 position) {
     if (!(depth > 0.0f)) return ivec2(-1);
     float x = dot(to_point, camera.right) / (dot(camera.right, camera.right) * depth);
     float y = dot(to_point, camera.up) / (dot(camera.up, camera.up) * depth);
-    vec2 position_px = vec2(0.5f + 0.5f * x, 0.5f - 0.5f * y) * vec2(frame_size.xy);
+    vec2 position_px = vec2(0.5f + 0.5f * x, 0.5f - 0.5f * y) * vec2(frame_size.xy) - frame_jitter.zw;
     // Compared as floats: what lies far outside has no integer.
     if (!(position_px.x >= 0.0f && position_px.y >= 0.0f && position_px.x < float(frame_size.x) &&
           position_px.y < float(frame_size.y)))
@@ -40,7 +40,8 @@ bool load_previous_receiver(ivec2 pixel, out Receiver r) {
                                               texelFetch(previous_layers, ivec3(pixel, LAYER_NORMALS), 0),
                                               texelFetch(previous_layers, ivec3(pixel, LAYER_DIFFUSE), 0),
                                               texelFetch(previous_layers, ivec3(pixel, LAYER_SPECULAR), 0));
-    vec3 direction = camera_ray(previous_camera(), vec2(pixel) + 0.5f, vec2(frame_size.xy)).direction;
+    vec2 position_px = vec2(pixel) + 0.5f + frame_jitter.zw;
+    vec3 direction = camera_ray(previous_camera(), position_px, vec2(frame_size.xy)).direction;
     r = make_receiver(point, -direction);
     return point.position_error >= 0.0f;
 }

@@ -26,11 +26,11 @@ bool load_receiver(ivec2 pixel, out Receiver r) {
     return lit;
 }
 
-vec3 reflect_at(Receiver r, IncidentLight incident) {
-    return reflect_light(r.point, r.frame, r.view_local, incident);
+BrdfValue reflect_at(Receiver r, IncidentLight incident) {
+    return reflect_light_parts(r.point, r.frame, r.view_local, incident);
 }
 
 // p-hat without visibility.
 float target_at(Receiver r, IncidentLight incident) {
-    return target_function(reflect_at(r, incident), target_weights.xyz);
+    return target_function(join_parts(r.point.material, reflect_at(r, incident)), target_weights.xyz);
 }

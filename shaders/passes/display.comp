@@ -1,4 +1,5 @@
-// One view of a finished frame as display-encoded colours; which one, the define says (engine/passes/display.cpp).
+// One view of the frame as display-encoded colours; which one, the define says (engine/passes/display.cpp). Radiance has
+// the size of what is shown; surfaces may be coarser.
 #include "shared/interface/constants/display.h"
 #include "lib/gbuffer.glsl"
 #include "shared/math/colour.h"
@@ -9,7 +10,11 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = UNIT_PASS_A) uniform sampler2D frame_radiance;
 layout(binding = UNIT_PASS_B) uniform usampler2D seen_triangles;
+layout(binding = UNIT_PASS_C) uniform usamplerBuffer exposure;
 layout(binding = 0, rgba8) writeonly uniform image2D out_picture;
+
+// Radiance times this is shown.
+float exposure_scale() { return uintBitsToFloat(texelFetch(exposure, 0).x); }
 
 // Black, blue, cyan, green, yellow, red, white for t = 0, 1/6 .. 1.
 vec3 false_colour(float t) {
@@ -34,7 +39,7 @@ vec3 primitive_colour(uvec2 seen) {
 vec3 luminance_colour(vec3 radiance) {
     const float MIDDLE_GREY = 0.18f;
     const float STOPS = 8.0f;
-    float exposed = luminance(radiance) * exposure_scale / MIDDLE_GREY;
+    float exposed = luminance(radiance) * exposure_scale() / MIDDLE_GREY;
     return false_colour(exposed > 0.0f ? 0.5f + 0.5f * log2(exposed) / STOPS : 0.0f);
 }
 
@@ -44,15 +49,16 @@ vec3 position_error_colour(float error_m) {
     return false_colour(error_m > 0.0f ? (log2(error_m) / log2(10.0f) + 9.0f) / DECADES : 0.0f);
 }
 
-vec3 view_colour(ivec2 pixel) {
+vec3 view_colour(ivec2 shown) {
+    ivec2 pixel = shown * textureSize(seen_triangles, 0) / ivec2(width_px, height_px);
     uvec2 seen = texelFetch(seen_triangles, pixel, 0).xy;
     bool is_seen = seen.x != INVALID_INDEX;
 #if defined(TARN_VIEW_LUMINANCE)
-    return luminance_colour(texelFetch(frame_radiance, pixel, 0).xyz);
+    return luminance_colour(texelFetch(frame_radiance, shown, 0).xyz);
 #elif defined(TARN_VIEW_ALBEDO)
     return srgb_from_linear3(load_layer(pixel, LAYER_DIFFUSE).xyz + load_layer(pixel, LAYER_SPECULAR).xyz);
 #elif defined(TARN_VIEW_EMISSION)
-    return display_colour(load_layer(pixel, LAYER_EMISSION).xyz, exposure_scale);
+    return display_colour(load_layer(pixel, LAYER_EMISSION).xyz, exposure_scale());
 #elif defined(TARN_VIEW_GEOMETRIC_NORMALS)
     return direction_colour(load_layer(pixel, LAYER_NORMALS).xy, is_seen);
 #elif defined(TARN_VIEW_SHADING_NORMALS)
@@ -62,13 +68,12 @@ vec3 view_colour(ivec2 pixel) {
 #elif defined(TARN_VIEW_PRIMITIVES)
     return is_seen ? primitive_colour(seen) : vec3(0.0f);
 #else
-    return display_colour(texelFetch(frame_radiance, pixel, 0).xyz, exposure_scale);
+    return display_colour(texelFetch(frame_radiance, shown, 0).xyz, exposure_scale());
 #endif
 }
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    ivec2 size_px = imageSize(out_picture);
-    if (pixel.x >= size_px.x || pixel.y >= size_px.y) return;
+    if (pixel.x >= int(width_px) || pixel.y >= int(height_px)) return;
     imageStore(out_picture, pixel, vec4(view_colour(pixel), 1.0f));
 }

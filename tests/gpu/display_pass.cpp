@@ -8,19 +8,19 @@
 
 #include "core/display.h"
 #include "core/error.h"
-#include "platform/context.h"
+#include "gpu/pass_context.h"
 #include "shared/dialect.h"
 
 namespace tarn {
 namespace {
 
-constexpr int WIDTH = 13;
-constexpr int HEIGHT = 9;
+constexpr glm::ivec2 SIZE_PX(13, 9);
+constexpr std::size_t PIXELS = 13 * 9;
 
 // Colours from black to far beyond white, and what must not reach a screen.
 std::vector<glm::vec4> make_radiance() {
     std::vector<glm::vec4> texels;
-    for (int i = 0; i < WIDTH * HEIGHT; ++i) {
+    for (std::size_t i = 0; i < PIXELS; ++i) {
         const float level = std::exp2(float(i) * 0.15f - 10.0f);
         texels.push_back({level, level * 0.5f, level * float(i % 3), 1.0f});
     }
@@ -30,36 +30,35 @@ std::vector<glm::vec4> make_radiance() {
 
 class DisplayPassTest : public testing::Test {
   protected:
-    DisplayPassTest() : context_(create_context({})) {
+    DisplayPassTest() {
         for (Texture2D& layer : surfaces_->layers) layer.clear(glm::vec4(0.0f));
-        seen_->clear(glm::uvec4(INVALID_INDEX));
-        radiance_.upload(make_radiance());
     }
 
     std::vector<glm::u8vec4> show(DisplayView view, float exposure_ev) {
-        const GBuffer gbuffer{seen_, surfaces_, std::nullopt};
-        frame_.begin();
-        const Texture2D& picture = pass_.record(frame_, radiance_, gbuffer, view, exposure_ev);
-        frame_.end();
-        return picture.download<glm::u8vec4>();
+        context_.recorder().begin();
+        const FrameContext frame = context_.frame(SIZE_PX, SIZE_PX);
+        const Picture seen = context_.write_picture("test/seen", SIZE_PX, GL_RG32UI, seen_);
+        const Picture radiance = context_.write_picture("test/radiance", SIZE_PX, GL_RGBA32F, radiance_);
+        frame.pass("test/surfaces").write(surfaces_->stack);
+        const Exposure exposure = find_exposure(frame, radiance, {exposure_ev}, std::nullopt);
+        const GBuffer gbuffer{seen, surfaces_, std::nullopt};
+        const Picture picture = show_frame(frame, view, radiance, gbuffer, exposure);
+        context_.recorder().end();
+        return picture->download<glm::u8vec4>();
     }
 
     Texture2D& layer(int index) { return surfaces_->layers[std::size_t(index)]; }
 
-    std::unique_ptr<Context> context_;
-    Texture2D radiance_{"test/radiance", WIDTH, HEIGHT, GL_RGBA32F};
-    Picture seen_ = std::make_shared<Texture2D>("test/seen", WIDTH, HEIGHT, GL_RG32UI);
-    Surfaces surfaces_ = std::make_shared<SurfaceImages>(glm::ivec2(WIDTH, HEIGHT));
-    ProgramLibrary programs_;
-    FrameRecorder frame_;
-    DisplayPass pass_{programs_, WIDTH, HEIGHT};
+    test::PassContext context_;
+    std::vector<glm::vec4> radiance_ = make_radiance();
+    std::vector<glm::uvec2> seen_ = std::vector<glm::uvec2>(PIXELS, glm::uvec2(INVALID_INDEX));
+    Surfaces surfaces_ = std::make_shared<SurfaceImages>(SIZE_PX);
 };
 
 TEST_F(DisplayPassTest, TheWindowShowsWhatThePngHolds) {
-    Image image(WIDTH, HEIGHT, 3);
-    const std::vector<glm::vec4> texels = make_radiance();
-    for (std::size_t i = 0; i < texels.size(); ++i) {
-        for (int c = 0; c < 3; ++c) image.values[3 * i + c] = texels[i][c];
+    Image image(SIZE_PX.x, SIZE_PX.y, 3);
+    for (std::size_t i = 0; i < PIXELS; ++i) {
+        for (int c = 0; c < 3; ++c) image.values[3 * i + c] = radiance_[i][c];
     }
     for (const float exposure_ev : {-3.0f, 0.0f, 2.5f}) {
         const Image expected = display_from_radiance(image, exposure_ev);
@@ -77,7 +76,7 @@ TEST_F(DisplayPassTest, EveryViewCompilesAndKnowsEmptyPixels) {
     for (std::size_t i = 0; i < display_views().size(); ++i) {
         const DisplayView view = DisplayView(i);
         const bool shows_radiance = view == DisplayView::RADIANCE || view == DisplayView::LUMINANCE;
-        const glm::u8vec4 first = show(view, 0.0f)[WIDTH * HEIGHT - 1];
+        const glm::u8vec4 first = show(view, 0.0f)[PIXELS - 1];
         const bool black = first.x == 0 && first.y == 0 && first.z == 0;
         EXPECT_EQ(black, !shows_radiance) << display_views()[i].name;
         EXPECT_EQ(parse_display_view(display_views()[i].name), view);
@@ -86,7 +85,7 @@ TEST_F(DisplayPassTest, EveryViewCompilesAndKnowsEmptyPixels) {
 }
 
 TEST_F(DisplayPassTest, LuminanceIsGreenAtMiddleGrey) {
-    radiance_.clear(glm::vec4(0.18f, 0.18f, 0.18f, 1.0f));
+    radiance_.assign(PIXELS, glm::vec4(0.18f, 0.18f, 0.18f, 1.0f));
     EXPECT_NEAR(float(show(DisplayView::LUMINANCE, 0.0f)[0].y), 255.0f, 1.0f);
     EXPECT_NEAR(float(show(DisplayView::LUMINANCE, 0.0f)[0].x), 0.0f, 1.0f);
     const glm::u8vec4 bright = show(DisplayView::LUMINANCE, 8.0f)[0];
@@ -94,7 +93,7 @@ TEST_F(DisplayPassTest, LuminanceIsGreenAtMiddleGrey) {
 }
 
 TEST_F(DisplayPassTest, NormalsPointIntoTheirColours) {
-    seen_->clear(glm::uvec4(1, 2, 0, 0));
+    seen_.assign(PIXELS, glm::uvec2(1, 2));
     layer(LAYER_NORMALS).clear(glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));  // octahedral: geometric +X, shading +Y
     EXPECT_EQ(show(DisplayView::GEOMETRIC_NORMALS, 0.0f)[0].x, 255);
     EXPECT_EQ(show(DisplayView::SHADING_NORMALS, 0.0f)[0].y, 255);

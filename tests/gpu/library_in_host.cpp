@@ -86,7 +86,7 @@ TEST(LibraryInHost, DrawsTheSameAndLeavesTheStateAsItWas) {
         view.draw(first_frame(scene));
         EXPECT_EQ(host.state(), before);
         EXPECT_EQ(view.read().rgb, expected);
-        view.present(SIZE_PX, SIZE_PX, 0.0f);
+        view.present(SIZE_PX, SIZE_PX);
         EXPECT_EQ(host.state(), before);
         EXPECT_GT(host.picture_sum(), 255 * SIZE_PX * SIZE_PX + 1000);
     }

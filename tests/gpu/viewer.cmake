@@ -1,5 +1,6 @@
 # What the window shows: the display pass, and the viewer in a real window with real events.
 tarn_test(display_pass LABEL gpu LIBRARIES tarn_passes tarn_platform)
+tarn_test(exposure_pass LABEL gpu LIBRARIES tarn_passes tarn_platform tarn_test_support)
 
 find_program(XDOTOOL xdotool)
 find_program(IMPORT import)

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "bench/resize.h"
-
 namespace tarn {
 
 CameraRecord turn_camera(const CameraRecord& camera, double turn_deg) {
@@ -59,10 +57,9 @@ RenderedFrame RendererSource::render(const FrameRequest& request) {
     input.frame = request.frame;
     input.seed = request.seed;
     input.settings = request.settings;
+    input.output_px = glm::ivec2(width_px_, height_px_);
     const FrameOutput output = renderer.render(input);
-    Image radiance = renderer.read_radiance(output.radiance);
-    if (request.resolution < 1.0) radiance = resize_bilinear(radiance, width_px_, height_px_);
-    return {std::move(radiance), output.timings, output.shadow_rays.traced};
+    return {renderer.read_radiance(output.radiance), output.timings, output.shadow_rays.traced};
 }
 
 std::map<std::string, std::uint64_t> RendererSource::read_counters(std::size_t method) {

@@ -17,9 +17,6 @@ constexpr double LONGEST_STEP_S = 0.5;  // a stall (a shader that compiles) is n
 constexpr auto RESIZE_DELAY = std::chrono::milliseconds(250);
 constexpr auto MESSAGE_TIME = std::chrono::seconds(5);
 constexpr auto TITLE_INTERVAL = std::chrono::milliseconds(100);
-constexpr double EXPOSURE_TIME_S = 0.4;
-constexpr std::uint32_t EXPOSURE_INTERVAL = 4;  // frames between looks at the picture's luminance
-constexpr std::size_t EXPOSURE_SAMPLES = 4096;
 
 std::unique_ptr<Context> open_window(const RenderOptions& options) {
     if (options.context != "glfw") {
@@ -48,17 +45,6 @@ double longest_animation_s(const Scene& scene) {
     for (const Animation& animation : scene.animations)
         duration_s = std::max(duration_s, animation.duration_s);
     return duration_s;
-}
-
-// Some thousand pixels of `radiance`, evenly spread.
-Image sample_pixels(const Texture2D& radiance) {
-    const std::vector<glm::vec4> texels = radiance.download<glm::vec4>();
-    const std::size_t stride = std::max<std::size_t>(1, texels.size() / EXPOSURE_SAMPLES);
-    Image image(int((texels.size() + stride - 1) / stride), 1, 3);
-    for (std::size_t i = 0; i < image.pixel_count(); ++i) {
-        for (int c = 0; c < 3; ++c) image.values[3 * i + c] = texels[i * stride][c];
-    }
-    return image;
 }
 
 std::filesystem::path find_new_name() {
@@ -158,9 +144,7 @@ void Viewer::run() {
 void Viewer::make_renderer(const glm::ivec2& size_px) {
     // The old one lives until the new one works.
     auto renderer = std::make_unique<Renderer>(loaded_.world, *tracer_, size_px.x, size_px.y);
-    auto display = std::make_unique<DisplayPass>(display_programs_, size_px.x, size_px.y);
     renderer_ = std::move(renderer);
-    display_ = std::move(display);
     picture_ = nullptr;
     timings_.clear();
 }
@@ -188,15 +172,12 @@ void Viewer::show_frame(double dt_s) {
     const double step_s = std::min(dt_s, LONGEST_STEP_S);
     handle_input(overlay_.begin(), step_s);
     move_scene(step_s);
-    const FrameOutput output = render_frame();
-    if (state_.auto_exposure) adapt_exposure(output.radiance, dt_s);
-    display_frame_.begin();
-    picture_ =
-        &display_->record(display_frame_, output.radiance, output.gbuffer, state_.view, state_.exposure_ev);
-    const FrameTimings display_timings = display_frame_.end();
-    collect_facts(output, display_timings.frame_ms, dt_s);
+    const FrameOutput output = render_frame(dt_s);
+    picture_ = output.display;
+    if (state_.auto_exposure) state_.exposure_ev = renderer_->read_exposure_ev();
+    collect_facts(output, dt_s);
     apply_panel();
-    display_->present(window_.framebuffer_size_px());
+    present(*picture_, window_.framebuffer_size_px());
     overlay_.end();
     window_.swap();
     update_title();
@@ -241,29 +222,22 @@ void Viewer::follow_camera(std::size_t index) {
     facts_.followed_camera = index;
 }
 
-FrameOutput Viewer::render_frame() {
+FrameOutput Viewer::render_frame(double dt_s) {
     FrameInput input;
     input.camera =
         camera_record(camera_, loaded_.world, double(renderer_->width_px()) / renderer_->height_px());
     input.frame = frame_;
     input.seed = state_.seed;
     input.settings = state_.settings;
+    DisplayInput& display = input.display.emplace();
+    display.view = state_.view;
+    if (!state_.auto_exposure) display.exposure.fixed_ev = state_.exposure_ev;
+    display.exposure.elapsed_s = dt_s;
     return renderer_->render(input);
 }
 
-void Viewer::adapt_exposure(const Texture2D& radiance, double dt_s) {
-    if (exposure_is_set_ && frame_ % EXPOSURE_INTERVAL != 0) return;
-    const float target_ev = auto_exposure_ev(sample_pixels(radiance));
-    const double way = exposure_is_set_ ? 1.0 - std::exp(-dt_s * EXPOSURE_INTERVAL / EXPOSURE_TIME_S) : 1.0;
-    state_.exposure_ev += float(way) * (target_ev - state_.exposure_ev);
-    exposure_is_set_ = true;
-}
-
-void Viewer::collect_facts(const FrameOutput& output, double display_ms, double dt_s) {
-    FrameTimings timings = output.timings;
-    timings.frame_ms += display_ms;
-    timings.passes.push_back({"display", display_ms});
-    timings_.add(timings);
+void Viewer::collect_facts(const FrameOutput& output, double dt_s) {
+    timings_.add(output.timings);
     facts_.timings = timings_.medians();
     // The first frame has none before it.
     if (frame_ > 0) loop_s_ = loop_s_ == 0.0 ? dt_s : 0.9 * loop_s_ + 0.1 * dt_s;
@@ -300,8 +274,7 @@ void Viewer::update_title() {
 }
 
 void Viewer::reload_shaders() {
-    std::string errors = renderer_->reload_shaders();
-    errors += display_programs_.reload();
+    const std::string errors = renderer_->reload_shaders();
     report(errors.empty() ? "shaders are up to date" : errors, !errors.empty());
 }
 

@@ -44,9 +44,8 @@ class Viewer {
     void handle_input(const ViewerInput& input, double dt_s);
     void move_scene(double dt_s);
     void follow_camera(std::size_t index);
-    FrameOutput render_frame();
-    void adapt_exposure(const Texture2D& radiance, double dt_s);
-    void collect_facts(const FrameOutput& output, double display_ms, double dt_s);
+    FrameOutput render_frame(double dt_s);
+    void collect_facts(const FrameOutput& output, double dt_s);
     void apply_panel();
     void update_title();
     void reload_shaders();
@@ -61,11 +60,8 @@ class Viewer {
     Window& window_;
     std::unique_ptr<RayTracer> tracer_;
     Overlay overlay_;
-    ProgramLibrary display_programs_;
-    FrameRecorder display_frame_;
     std::unique_ptr<Renderer> renderer_;
-    std::unique_ptr<DisplayPass> display_;
-    const Texture2D* picture_ = nullptr;  // the last one; owned by display_
+    Picture picture_;  // the last one
 
     ViewerState state_;
     ViewerFacts facts_;
@@ -77,7 +73,6 @@ class Viewer {
     glm::ivec2 failed_size_px_{0};  // the driver refused it
     glm::ivec2 wanted_size_px_{0};  // and since when
     Clock::time_point wanted_since_;
-    bool exposure_is_set_ = false;
     Clock::time_point titled_at_;
     Clock::time_point reported_at_;
 };

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tarn/camera.h"
 #include "tarn/picture.h"
@@ -56,6 +57,21 @@ class Engine {
     std::shared_ptr<struct EngineState> state_;
 };
 
+// What a frame shows.
+struct Display {
+    std::string view = "radiance";  // the picture itself, or another look at the frame; see list_display_views
+    std::optional<float> exposure_ev;  // nullopt: follows the pictures
+    double elapsed_s = 1.0 / 60.0;     // since the last frame: how far an exposure that follows may go
+};
+
+// A look at a frame.
+struct DisplayViewInfo {
+    std::string name;      // "shading normals"
+    std::string sentence;  // what its colours mean
+};
+
+std::vector<DisplayViewInfo> list_display_views();
+
 // One frame. The same scene, moment, frame, seed and settings give the same picture, bit for bit, as long as
 // the frames before it were the same too.
 struct Frame {
@@ -63,6 +79,7 @@ struct Frame {
     std::uint32_t number = 0;  // where it is one more than the last frame's, samples of that frame are reused
     std::uint32_t seed = 0;    // of all random numbers
     Settings settings;
+    Display display;
 };
 
 // A scene as seen at one size. Keeps the last frame, from which the next one reuses samples. It keeps engine
@@ -88,13 +105,13 @@ class View {
     // Of the last frame; Error before the first one.
     // Reads the radiance back.
     Picture read() const;
-    // The name of a GL texture, RGBA8, row 0 on top: exposed, tone-mapped, sRGB. nullopt: an exposure that
-    // follows the pictures. Valid until the next call of this view.
-    unsigned texture(std::optional<float> exposure_ev = std::nullopt);
-    // Draws that over the whole of the current draw framebuffer, whose size it is given. Error in a context
-    // of the engine's own, which has no window.
-    void present(int framebuffer_width_px, int framebuffer_height_px,
-                 std::optional<float> exposure_ev = std::nullopt);
+    // The name of a GL texture, RGBA8, row 0 on top: exposed, tone-mapped, sRGB. Valid until the next frame.
+    unsigned texture() const;
+    // The exposure of that, EV. Waits for the device.
+    float exposure_ev() const;
+    // Draws the texture over the whole of the current draw framebuffer, whose size it is given. Error in a
+    // context of the engine's own, which has no window.
+    void present(int framebuffer_width_px, int framebuffer_height_px);
 
     // Forgets the last frame, as after a cut.
     void reset_history();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "passes/gbuffer.h"
+#include "passes/reflected_light.h"
 #include "passes/reuse/samples.h"
 #include "passes/trace_rays.h"
 
@@ -12,12 +13,12 @@ struct ShadeInput {
     const Samples* samples = nullptr;
     Answers answers;  // one a pixel, where the samples were traced after all reuse; null: what the reservoirs
                       // know
-    Picture summed;
+    ReflectedLight summed;
 };
 
-// RGBA32F, W sr^-1 m^-2: emission and the light of this slot's samples, added to `earlier` slots' of this
-// frame, which is no more; null for the first slot.
-Picture shade_direct(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,
-                     const ShadeInput& input, Picture earlier);
+// The light of this slot's samples, added to `earlier` slots' of this frame, which is no more; none for the
+// first slot.
+ReflectedLight shade_direct(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,
+                   const ShadeInput& input, const ReflectedLight& earlier);
 
 }  // namespace tarn

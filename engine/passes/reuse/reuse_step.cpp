@@ -75,7 +75,9 @@ void merge(const FrameContext& frame, const ReuseKernel& kernel, const ReuseInpu
         .write(0, merged.reservoirs);
     if (answers) pass.read(UNIT_PASS_B, answers);
     if (merged.rays) pass.write(2, merged.rays);
-    if (input.light != nullptr) pass.write_image(0, **input.light);
+    if (input.light != nullptr) {
+        pass.write_image(0, *input.light->diffuse).write_image(1, *input.light->specular);
+    }
     pass.count(BLOCK_COUNTERS, frame.counters)
         .dispatch(kernel.shaders.program(merge_run(input)), {frame.size_px.x, band.end - band.begin});
 }

@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "passes/reflected_light.h"
 #include "passes/reuse/samples.h"
 #include "shared/interface/constants/reuse.h"
 
@@ -15,7 +16,7 @@ struct ReuseInput {
     const SampleSlot& slot;
     const Samples& samples;
     bool tests_samples = false;      // write the rays that test the merged samples
-    const Picture* light = nullptr;  // write what all merged samples send to the viewer
+    const ReflectedLight* light = nullptr;  // write what all merged samples send to the viewer
 };
 
 struct ReuseKernel {

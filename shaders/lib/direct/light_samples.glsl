@@ -20,7 +20,7 @@ float sample_target(Receiver r, SAMPLE drawn) {
 }
 
 // What the sample sends to the viewer if it is seen, not yet weighed by W.
-vec3 reflect_sample(Receiver r, SAMPLE drawn) {
+BrdfValue reflect_sample(Receiver r, SAMPLE drawn) {
     return reflect_at(r, load_incident_light(drawn, r.point.position));
 }
 

@@ -7,7 +7,7 @@
 //   SAMPLE no_sample(); bool is_sample(SAMPLE)
 //   uvec3 pack_sample(SAMPLE); SAMPLE unpack_sample(uvec3)
 //   float sample_target(Receiver, SAMPLE)      p-hat without visibility
-//   vec3 reflect_sample(Receiver, SAMPLE)      what it sends to the viewer, before W
+//   BrdfValue reflect_sample(Receiver, SAMPLE) what it sends to the viewer, before W
 //   RayRecord sample_ray(Receiver, SAMPLE, ivec2 pixel)
 //   float shift_jacobian(Receiver from, Receiver to, SAMPLE)   |dT/dx| between the domains of two receivers
 //   TEMPORAL_DIMENSION, SPATIAL_DIMENSION      random dimensions (shared/math/random.h)

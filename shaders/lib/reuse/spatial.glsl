@@ -10,7 +10,8 @@ const uint NEIGHBOURS = TARN_NEIGHBOURS;  // 1 .. 9
 
 #ifdef TARN_SHADE_ALL
 // Where all samples of this step light the pixel: the sum of m x BRDF x Le x G x visibility x W over them.
-layout(binding = 0, rgba32f) uniform writeonly image2D light_image;
+layout(binding = 0, rgba32f) uniform writeonly image2D diffuse_image;  // without the albedo
+layout(binding = 1, rgba32f) uniform writeonly image2D specular_image;
 #endif
 
 // The pixel and who joins it.
@@ -197,13 +198,16 @@ float find_normalization(Gathering g, Merge m) {
 
 // What a sample sends to the viewer, `share` being its m x W. Its colour is its own: averaging visibility under one
 // chosen colour leaks, this does not.
-vec3 shade_sample(Gathering g, SampleReservoir r, float share) {
-    return reflect_sample(g.here, r.chosen) * share * (MIS_VISIBILITY ? 1.0f : r.state.visibility);
+void shade_sample(Gathering g, SampleReservoir r, float share, inout BrdfValue light) {
+    float factor = share * (MIS_VISIBILITY ? 1.0f : r.state.visibility);
+    BrdfValue reflected = reflect_sample(g.here, r.chosen);
+    light.diffuse += reflected.diffuse * factor;
+    light.specular += reflected.specular * factor;
 }
 
-Merge merge_all(Gathering g, out vec3 light) {
+Merge merge_all(Gathering g, out BrdfValue light) {
     Merge m = empty_merge();
-    light = vec3(0.0f);
+    light = no_reflection();
     for (uint t = 0u; t <= NEIGHBOURS; ++t) {
         SampleReservoir r = technique_reservoir(g, t);
         if (r.state.contribution_weight == 0.0f) continue;
@@ -219,7 +223,7 @@ Merge merge_all(Gathering g, out vec3 light) {
 #endif
         offer_merged(m, r, target, weight, neighbour_random(g.pixel, t).z);
 #ifdef TARN_SHADE_ALL
-        if (weight > 0.0f && is_finite(weight)) light += shade_sample(g, r, weight / target);
+        if (weight > 0.0f && is_finite(weight)) shade_sample(g, r, weight / target, light);
 #endif
     }
     return m;
@@ -269,7 +273,7 @@ void write_ray(Gathering g, uint t, SAMPLE drawn, uint slot) {
 void write_rays(Gathering g) {
     store_no_rays(g.pixel);
     if (MIS == MIS_ONE_OVER_Z && MIS_VISIBILITY) {
-        vec3 light;
+        BrdfValue light;
         SAMPLE chosen = merge_all(g, light).chosen;
         for (uint t = 0u; t <= NEIGHBOURS; ++t) {
             if (has_joined(g, t)) write_ray(g, t, chosen, t);
@@ -304,7 +308,7 @@ void main() {
     }
 #else
     SampleReservoir result = empty_sample_reservoir();
-    vec3 light = vec3(0.0f);
+    BrdfValue light = no_reflection();
     if (lit) {
         Gathering g = gather(pixel, here);
 #ifdef TARN_CHECK_MIS
@@ -313,7 +317,8 @@ void main() {
         result = finish(g, merge_all(g, light));
     }
 #ifdef TARN_SHADE_ALL
-    imageStore(light_image, pixel, vec4(light, 1.0f));
+    imageStore(diffuse_image, pixel, vec4(light.diffuse, 1.0f));
+    imageStore(specular_image, pixel, vec4(light.specular, 1.0f));
 #endif
     store_reservoir(pixel, here, result);
 #endif

@@ -1,4 +1,5 @@
-// Lights each pixel with its reservoir's sample: emission + BRDF x Le x G x visibility x contribution weight.
+// Lights each pixel with its reservoir's sample: BRDF x Le x G x visibility x contribution weight, base and layer apart
+// and the base without its albedo. composite.comp joins them.
 //
 // TARN_SHADED: with the light that the last step of reuse has summed over all its samples instead.
 // TARN_RESERVOIR_VISIBILITY: visibility is what the reservoir knows; else a ray was traced for it.
@@ -9,7 +10,6 @@
 #include "lib/scene_buffers.glsl"
 #include "lib/frame.glsl"
 #include "lib/gbuffer.glsl"
-#include "lib/counters.glsl"
 #include "lib/receiver.glsl"
 #include "lib/direct/light_samples.glsl"
 #include "lib/reuse/reservoirs.glsl"
@@ -17,12 +17,14 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #ifdef TARN_SHADED
-layout(binding = UNIT_PASS_A) uniform sampler2D summed_light;
+layout(binding = UNIT_PASS_A) uniform sampler2D summed_diffuse;
+layout(binding = UNIT_PASS_B) uniform sampler2D summed_specular;
 #else
 layout(binding = UNIT_PASS_A) uniform usamplerBuffer reservoirs;
-#endif
 layout(binding = UNIT_PASS_B) uniform samplerBuffer visibility;
-layout(binding = 0, rgba32f) uniform image2D radiance_image;
+#endif
+layout(binding = 0, rgba32f) uniform image2D diffuse_image;
+layout(binding = 1, rgba32f) uniform image2D specular_image;
 
 #ifndef TARN_SHADED
 float load_visibility(ivec2 pixel, Reservoir state) {
@@ -42,48 +44,45 @@ vec3 sample_colour(LightSample chosen) {
     return (vec3(bits.xyz >> 24u) + 1.0f) / 256.0f;
 }
 
-vec3 chosen_light(ivec2 pixel, Receiver receiver) {
+BrdfValue chosen_light(ivec2 pixel, Receiver receiver) {
     SampleReservoir r = load_reservoir(reservoirs, pixel);
     float visible = load_visibility(pixel, r.state);
-    vec3 reflected = reflect_sample(receiver, r.chosen) * (r.state.contribution_weight * visible);
+    BrdfValue light = scale_parts(reflect_sample(receiver, r.chosen),
+                                  vec3(r.state.contribution_weight * visible));
 #ifdef TARN_SHOW_VISIBILITY
-    reflected = vec3(holds_sample(r) ? visible : 0.0f);
+    light = BrdfValue(vec3(0.0f), vec3(holds_sample(r) ? visible : 0.0f));
 #endif
 #ifdef TARN_SHOW_SAMPLES
-    reflected = holds_sample(r) ? sample_colour(r.chosen) : vec3(0.0f);
+    light = BrdfValue(vec3(0.0f), holds_sample(r) ? sample_colour(r.chosen) : vec3(0.0f));
 #endif
-    return reflected;
+    return light;
 }
 #endif
 
-vec3 direct_light(ivec2 pixel, Receiver receiver) {
+BrdfValue direct_light(ivec2 pixel, Receiver receiver) {
 #ifdef TARN_SHADED
-    vec3 light = texelFetch(summed_light, pixel, 0).xyz;
+    BrdfValue light =
+        BrdfValue(texelFetch(summed_diffuse, pixel, 0).xyz, texelFetch(summed_specular, pixel, 0).xyz);
 #else
-    vec3 light = chosen_light(pixel, receiver);
+    BrdfValue light = chosen_light(pixel, receiver);
 #endif
 #ifdef TARN_ONE_CHANNEL
-    light *= target_weights.xyz;
+    return scale_parts(light, target_weights.xyz * share);
+#else
+    return scale_parts(light, vec3(share));
 #endif
-    return light * share;
 }
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (is_outside(pixel)) return;
-#ifdef TARN_ADD
-    vec3 radiance = imageLoad(radiance_image, pixel).xyz;
-#else
-    vec3 radiance = load_layer(pixel, LAYER_EMISSION).xyz;
-#if defined(TARN_SHOW_VISIBILITY) || defined(TARN_SHOW_SAMPLES)
-    radiance = vec3(0.0f);
-#endif
-#endif
     Receiver receiver;
-    if (load_receiver(pixel, receiver)) radiance += direct_light(pixel, receiver);
-    if (!is_finite3(radiance)) {
-        count_event(COUNTER_BAD_RADIANCE);
-        radiance = vec3(0.0f);
-    }
-    imageStore(radiance_image, pixel, vec4(radiance, 1.0f));
+    BrdfValue light = no_reflection();
+    if (load_receiver(pixel, receiver)) light = direct_light(pixel, receiver);
+#ifdef TARN_ADD
+    light.diffuse += imageLoad(diffuse_image, pixel).xyz;
+    light.specular += imageLoad(specular_image, pixel).xyz;
+#endif
+    imageStore(diffuse_image, pixel, vec4(light.diffuse, 1.0f));
+    imageStore(specular_image, pixel, vec4(light.specular, 1.0f));
 }

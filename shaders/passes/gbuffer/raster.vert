@@ -24,6 +24,8 @@ void main() {
     // Reversed depth: 1 at the near plane, 0 at infinity (orthographic: at the end of the depth range).
     gl_Position = orthographic ? vec4(x, y, 1.0f - depth / frame_camera_forward.w, 1.0f)
                                : vec4(x, y, frame_camera_forward.w, depth);
+    // A pixel's centre shows what its jittered ray meets.
+    gl_Position.xy -= frame_jitter.xy * (2.0f / vec2(frame_size.xy)) * gl_Position.w;
     draw_id = draw;
 #ifdef TARN_COVERAGE
     uint row = uint(gl_VertexID) * VERTEX_ROWS;

@@ -63,18 +63,49 @@ CONSTANT bool SCENE_HAS_SPECULAR = false;
 CONSTANT bool SCENE_HAS_SPECULAR = true;
 #endif
 
-// BRDF value, 1/sr, without the cosine. `view` and `light` are unit vectors that point away from the surface.
-FN vec3 evaluate_brdf(SurfaceMaterial m, vec3 view, vec3 light) {
-    if (light.z <= 0.0f) return vec3(0.0f);
+// What base and layer reflect, apart: 1/sr for a BRDF value, W sr^-1 m^-2 for light.
+struct BrdfValue {
+    vec3 diffuse;   // of the base, without its albedo
+    vec3 specular;  // of the layer
+};
+
+FN BrdfValue no_reflection() {
+    BrdfValue none;
+    none.diffuse = vec3(0.0f);
+    none.specular = vec3(0.0f);
+    return none;
+}
+
+FN BrdfValue scale_parts(BrdfValue value, vec3 factor) {
+    value.diffuse = value.diffuse * factor;
+    value.specular = value.specular * factor;
+    return value;
+}
+
+FN vec3 join_parts(SurfaceMaterial m, BrdfValue value) {
+    return m.diffuse_albedo * value.diffuse + value.specular;
+}
+
+// BRDF value without the cosine. `view` and `light` are unit vectors that point away from the surface.
+FN BrdfValue evaluate_brdf_parts(SurfaceMaterial m, vec3 view, vec3 light) {
+    BrdfValue value = no_reflection();
+    if (light.z <= 0.0f) return value;
     vec3 v = clamp_view(view);
-    vec3 base = m.diffuse_albedo * INV_PI;
-    if (!SCENE_HAS_SPECULAR || (m.f90 == 0.0f && max_component(m.f0) == 0.0f)) return base;
+    value.diffuse = vec3(INV_PI);
+    if (!SCENE_HAS_SPECULAR || (m.f90 == 0.0f && max_component(m.f0) == 0.0f)) return value;
     vec3 half_vector = normalize(v + light);
     float cos_h = clamp(dot(v, half_vector), 0.0f, 1.0f);
     float layer = evaluate_ggx(half_vector, m.alpha) * evaluate_visibility_smith(light.z, v.z, m.alpha);
     vec3 transmitted = (vec3(1.0f) - fresnel_schlick(m.f0, m.f90, v.z)) *
                        (vec3(1.0f) - fresnel_schlick(m.f0, m.f90, light.z));
-    return base * transmitted + fresnel_schlick(m.f0, m.f90, cos_h) * layer;
+    value.diffuse = transmitted * INV_PI;
+    value.specular = fresnel_schlick(m.f0, m.f90, cos_h) * layer;
+    return value;
+}
+
+// Both parts together, 1/sr.
+FN vec3 evaluate_brdf(SurfaceMaterial m, vec3 view, vec3 light) {
+    return join_parts(m, evaluate_brdf_parts(m, view, light));
 }
 
 // Probability of sampling the GGX layer rather than the base.

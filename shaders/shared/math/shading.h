@@ -23,16 +23,21 @@ struct Surface {
     bool unlit;     // emission is the whole answer and holds for the camera alone
 };
 
-// Reflected radiance for one incident sample: BRDF * cosine * value. Divide by the sample's pdf. Light from
-// behind the true surface reflects nothing, whatever the shading normal says.
-FN vec3 reflect_light(ShadingPoint p, Frame frame, vec3 view_local, IncidentLight incident) {
-    if (dot(p.geometric_normal, incident.direction) <= 0.0f) return vec3(0.0f);
+// Reflected radiance for one incident sample, base and layer apart: BRDF * cosine * value. Divide by the
+// sample's pdf. Light from behind the true surface reflects nothing, whatever the shading normal says.
+FN BrdfValue reflect_light_parts(ShadingPoint p, Frame frame, vec3 view_local, IncidentLight incident) {
+    if (dot(p.geometric_normal, incident.direction) <= 0.0f) return no_reflection();
     vec3 light_local = to_local(frame, incident.direction);
+    float cosine = max(light_local.z, 0.0f);
 #ifdef TARN_PLANT_DROP_COSINE
-    return evaluate_brdf(p.material, view_local, light_local) * incident.value;
-#else
-    return evaluate_brdf(p.material, view_local, light_local) * incident.value * max(light_local.z, 0.0f);
+    cosine = 1.0f;
 #endif
+    return scale_parts(evaluate_brdf_parts(p.material, view_local, light_local), incident.value * cosine);
+}
+
+// The same together.
+FN vec3 reflect_light(ShadingPoint p, Frame frame, vec3 view_local, IncidentLight incident) {
+    return join_parts(p.material, reflect_light_parts(p, frame, view_local, incident));
 }
 
 // The resampling target (p-hat): BRDF * Le * G without visibility, its channels weighed by `weights`: those

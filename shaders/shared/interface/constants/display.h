@@ -6,7 +6,8 @@
 SHARED_BEGIN
 
 PASS_CONSTANTS(DisplayConstants) {
-    float exposure_scale;  // radiance times this is shown
+    uint width_px;   // of the picture that is shown
+    uint height_px;
 };
 
 SHARED_END

@@ -1,0 +1,13 @@
+// Joins the light of all stages to the radiance of the picture.
+#pragma once
+
+#include "passes/gbuffer.h"
+#include "passes/reflected_light.h"
+
+namespace tarn {
+
+// RGBA32F, W sr^-1 m^-2: emission, and the light that surfaces reflect. What is not finite becomes black and is
+// counted.
+Picture composite(const FrameContext& frame, const GBuffer& gbuffer, const ReflectedLight& direct);
+
+}  // namespace tarn

@@ -1,0 +1,27 @@
+// Joins what the stages of light found: emission + albedo x diffuse light + specular light.
+//
+// TARN_LIGHT_ALONE: without emission, where a debug view shows something else than light.
+#include "lib/frame.glsl"
+#include "lib/gbuffer.glsl"
+#include "lib/counters.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(binding = UNIT_PASS_A) uniform sampler2D direct_diffuse;
+layout(binding = UNIT_PASS_B) uniform sampler2D direct_specular;
+layout(binding = 0, rgba32f) writeonly uniform image2D out_radiance;
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (is_outside(pixel)) return;
+    vec3 radiance = load_layer(pixel, LAYER_DIFFUSE).xyz * texelFetch(direct_diffuse, pixel, 0).xyz +
+                    texelFetch(direct_specular, pixel, 0).xyz;
+#ifndef TARN_LIGHT_ALONE
+    radiance += load_layer(pixel, LAYER_EMISSION).xyz;
+#endif
+    if (!is_finite3(radiance)) {
+        count_event(COUNTER_BAD_RADIANCE);
+        radiance = vec3(0.0f);
+    }
+    imageStore(out_radiance, pixel, vec4(radiance, 1.0f));
+}

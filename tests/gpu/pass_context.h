@@ -1,0 +1,52 @@
+// What a pass needs around it, for tests of single passes: no scene, no renderer.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "passes/frame_context.h"
+#include "platform/context.h"
+#include "shared/interface/frame_block.h"
+
+namespace tarn::test {
+
+class PassContext {
+  public:
+    PassContext()
+        : context_(create_context({})),
+          recorder_(std::make_unique<FrameRecorder>()),
+          tracer_(create_brute_force_tracer(world_)),
+          counters_(std::make_unique<Buffer>("test/counters", COUNTER_COUNT * sizeof(std::uint32_t),
+                                             BufferUse::DEVICE)) {}
+
+    FrameRecorder& recorder() { return *recorder_; }
+
+    FrameContext frame(const glm::ivec2& size_px, const glm::ivec2& output_px) {
+        return {*recorder_, programs_, *tracer_, *counters_, rays_,     plan_,
+                settings_,  defines_,  size_px,  output_px};
+    }
+
+    // A picture as if an earlier pass of this frame had written these texels.
+    template <class Texel>
+    Picture write_picture(const std::string& name, const glm::ivec2& size_px, GLenum format,
+                          const std::vector<Texel>& texels) {
+        const Picture picture = recorder_->take_picture(name, size_px, format);
+        picture->upload(texels);
+        recorder_->pass("test/write").write_image(0, *picture);
+        return picture;
+    }
+
+  private:
+    std::unique_ptr<Context> context_;
+    std::unique_ptr<FrameRecorder> recorder_;
+    ProgramLibrary programs_;
+    World world_;
+    std::unique_ptr<RayTracer> tracer_;
+    std::unique_ptr<Buffer> counters_;
+    RayCounts rays_;
+    FramePlan plan_;
+    RenderSettings settings_;
+    Defines defines_;
+};
+
+}  // namespace tarn::test
