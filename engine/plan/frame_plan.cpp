@@ -48,6 +48,27 @@ std::vector<PlannedPass> list_passes(const DirectPlan& plan) {
     };
 }
 
+std::vector<PlannedPass> list_passes(const IndirectPlan& plan) {
+    const ReusePlan& reuse = plan.reuse;
+    const bool samples = plan.keeps_samples;
+    return {
+        {"indirect/rays", plan.runs, "a path goes on from each pixel"},
+        {"indirect/hits", plan.runs, "and meets surfaces"},
+        {"indirect/vertices", plan.runs, "which are lit by light samples"},
+        {"indirect/shadows", plan.runs, "if these are seen"},
+        {"indirect/samples", plan.runs,
+         samples ? "paths become samples for reuse" : "paths light their pixels"},
+        {"indirect/temporal", samples && reuse.over_time, "the last frame's path samples are reused"},
+        {"indirect/boiling_filter", samples && reuse.filters_boiling,
+         "path samples that outweigh their surroundings go"},
+        {"indirect/spatial", samples && reuse.spatial_steps > 0, "neighbours' path samples are reused"},
+        {"indirect/visibility", samples && reuse.tests_chosen_samples,
+         "the chosen path samples are traced after all reuse"},
+        {"indirect/shade", samples && !reuse.shades_all_samples,
+         "the chosen path samples light their pixels"},
+    };
+}
+
 }  // namespace
 
 DirectPlan plan_direct(const DirectSettings& settings) {
@@ -64,14 +85,32 @@ DirectPlan plan_direct(const DirectSettings& settings) {
     return plan;
 }
 
+// A fresh path sample is where a ray has ended: its pixel sees it.
+IndirectPlan plan_indirect(const IndirectSettings& settings) {
+    IndirectPlan plan;
+    plan.runs = settings.runs();
+    plan.bounces = settings.bounces;
+    plan.candidate_count = settings.candidates;
+    plan.sampling = settings.sampling;
+    plan.target_weights = glm::vec3(LUMINANCE_WEIGHTS);
+    plan.reuse = plan_reuse(settings.reuse, settings.uses_restir(), DebugView::NONE);
+    plan.reuse.tests_fresh_samples = false;
+    plan.reuse.drops_occluded = false;
+    plan.keeps_samples = settings.uses_restir() && plan.reuse.runs();
+    return plan;
+}
+
 FramePlan make_plan(const FeatureSurvey& survey, const RenderSettings& settings) {
     FramePlan plan;
     plan.features = survey.features;
     plan.feature_reasons = survey.reasons;
     plan.direct = plan_direct(settings.direct);
+    plan.indirect = plan_indirect(settings.indirect);
+    plan.composite.indirect = plan.indirect.runs;
     const DebugView view = plan.direct.view;
     plan.composite.light_alone = view == DebugView::VISIBILITY || view == DebugView::SAMPLES;
     plan.passes = list_passes(plan.direct);
+    for (PlannedPass& pass : list_passes(plan.indirect)) plan.passes.push_back(std::move(pass));
     return plan;
 }
 

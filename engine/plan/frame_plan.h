@@ -44,6 +44,16 @@ struct DirectPlan {
     DebugView view = DebugView::NONE;
 };
 
+struct IndirectPlan {
+    bool runs = false;
+    bool keeps_samples = false;  // as reservoirs, for reuse; else paths light their pixels at once
+    int bounces = 1;
+    int candidate_count = 1;
+    IndirectSampling sampling = IndirectSampling::BRDF;
+    glm::vec3 target_weights{0.0f};
+    ReusePlan reuse;
+};
+
 // A pass that this frame runs or leaves out.
 struct PlannedPass {
     std::string name;  // as in the timings
@@ -55,11 +65,13 @@ struct FramePlan {
     SceneFeatures features;
     std::vector<FeatureReason> feature_reasons;
     DirectPlan direct;
+    IndirectPlan indirect;
     CompositeVariant composite;
     std::vector<PlannedPass> passes;  // those that not every frame runs
 };
 
 DirectPlan plan_direct(const DirectSettings& settings);
+IndirectPlan plan_indirect(const IndirectSettings& settings);
 
 FramePlan make_plan(const FeatureSurvey& survey, const RenderSettings& settings);
 

@@ -37,6 +37,18 @@ const char* define_of(DebugView view) {
     return nullptr;
 }
 
+Defines define_of(IndirectSampling sampling) {
+    switch (sampling) {
+        case IndirectSampling::UNIFORM:
+            return {"TARN_SAMPLE_UNIFORM"};
+        case IndirectSampling::COSINE:
+            return {"TARN_SAMPLE_COSINE"};
+        case IndirectSampling::BRDF:
+            break;
+    }
+    return {};
+}
+
 template <class Variant>
 ShaderFamily family_of() {
     ShaderFamily family{Variant::PATH, Variant::IS_OF_SCENE, {}};
@@ -115,6 +127,59 @@ std::vector<SpatialVariant> SpatialVariant::all() {
     return result;
 }
 
+std::vector<IndirectTemporalVariant> IndirectTemporalVariant::all() {
+    std::vector<IndirectTemporalVariant> result;
+    for (const TemporalVariant& variant : TemporalVariant::all()) result.push_back({variant});
+    return result;
+}
+
+std::vector<IndirectSpatialVariant> IndirectSpatialVariant::all() {
+    std::vector<IndirectSpatialVariant> result;
+    for (const SpatialVariant& variant : SpatialVariant::all()) result.push_back({variant});
+    return result;
+}
+
+Defines IndirectRaysVariant::defines() const {
+    return define_of(sampling);
+}
+
+std::vector<IndirectRaysVariant> IndirectRaysVariant::all() {
+    return {{IndirectSampling::UNIFORM}, {IndirectSampling::COSINE}, {IndirectSampling::BRDF}};
+}
+
+Defines PathVerticesVariant::defines() const {
+    Defines result;
+    if (is_first) result.emplace_back("TARN_FIRST_VERTEX");
+    if (is_last) result.emplace_back("TARN_LAST_VERTEX");
+    return result;
+}
+
+std::vector<PathVerticesVariant> PathVerticesVariant::all() {
+    return {{true, true}, {true, false}, {false, true}, {false, false}};
+}
+
+Defines PathSamplesVariant::defines() const {
+    Defines result = define_of(sampling);
+    if (shades) result.emplace_back("TARN_SHADE");
+    return result;
+}
+
+std::vector<PathSamplesVariant> PathSamplesVariant::all() {
+    std::vector<PathSamplesVariant> result;
+    for (const IndirectRaysVariant& rays : IndirectRaysVariant::all()) {
+        for (const bool shades : {false, true}) result.push_back({rays.sampling, shades});
+    }
+    return result;
+}
+
+Defines IndirectShadeVariant::defines() const {
+    return reservoir_visibility ? Defines{"TARN_RESERVOIR_VISIBILITY"} : Defines{};
+}
+
+std::vector<IndirectShadeVariant> IndirectShadeVariant::all() {
+    return {{false}, {true}};
+}
+
 Defines ShadeVariant::defines() const {
     Defines result;
     if (source == ShadeSource::RESERVOIR) result.emplace_back("TARN_RESERVOIR_VISIBILITY");
@@ -140,11 +205,14 @@ std::vector<ShadeVariant> ShadeVariant::all() {
 }
 
 Defines CompositeVariant::defines() const {
-    return light_alone ? Defines{"TARN_LIGHT_ALONE"} : Defines{};
+    Defines result;
+    if (indirect) result.emplace_back("TARN_INDIRECT");
+    if (light_alone) result.emplace_back("TARN_LIGHT_ALONE");
+    return result;
 }
 
 std::vector<CompositeVariant> CompositeVariant::all() {
-    return {{false}, {true}};
+    return {{false, false}, {false, true}, {true, false}, {true, true}};
 }
 
 Defines DisplayVariant::defines() const {
@@ -162,12 +230,26 @@ std::vector<DisplayVariant> DisplayVariant::all() {
 }
 
 std::vector<ShaderFamily> shader_families() {
-    return {family_of<RasterVariant>(),     family_of<ResolveVariant>(),
-            family_of<LightTilesVariant>(), family_of<BrdfRaysVariant>(),
-            family_of<CandidatesVariant>(), family_of<InitialVisibilityVariant>(),
-            family_of<TemporalVariant>(),   family_of<BoilingFilterVariant>(),
-            family_of<SpatialVariant>(),    family_of<ShadeVariant>(),
-            family_of<CompositeVariant>(),  family_of<EnlargeVariant>(),    family_of<ExposureVariant>(),
+    return {family_of<RasterVariant>(),
+            family_of<ResolveVariant>(),
+            family_of<LightTilesVariant>(),
+            family_of<BrdfRaysVariant>(),
+            family_of<CandidatesVariant>(),
+            family_of<InitialVisibilityVariant>(),
+            family_of<TemporalVariant>(),
+            family_of<BoilingFilterVariant>(),
+            family_of<SpatialVariant>(),
+            family_of<ShadeVariant>(),
+            family_of<IndirectRaysVariant>(),
+            family_of<PathVerticesVariant>(),
+            family_of<PathSamplesVariant>(),
+            family_of<IndirectTemporalVariant>(),
+            family_of<IndirectBoilingFilterVariant>(),
+            family_of<IndirectSpatialVariant>(),
+            family_of<IndirectShadeVariant>(),
+            family_of<CompositeVariant>(),
+            family_of<EnlargeVariant>(),
+            family_of<ExposureVariant>(),
             family_of<DisplayVariant>()};
 }
 

@@ -92,6 +92,54 @@ struct SpatialVariant {
     static std::vector<SpatialVariant> all();
 };
 
+// Indirect light. The same for all steps of reuse, but of its own samples.
+struct IndirectTemporalVariant : TemporalVariant {
+    static constexpr const char* PATH = "indirect/temporal";
+    static std::vector<IndirectTemporalVariant> all();
+};
+struct IndirectSpatialVariant : SpatialVariant {
+    static constexpr const char* PATH = "indirect/spatial";
+    static std::vector<IndirectSpatialVariant> all();
+};
+struct IndirectBoilingFilterVariant : PlainVariant<IndirectBoilingFilterVariant> {
+    static constexpr bool IS_OF_SCENE = false;
+    static constexpr const char* PATH = "indirect/boiling_filter";
+};
+
+struct IndirectRaysVariant {
+    static constexpr const char* PATH = "indirect/rays";
+    static constexpr bool IS_OF_SCENE = true;
+    IndirectSampling sampling = IndirectSampling::BRDF;
+    Defines defines() const;
+    static std::vector<IndirectRaysVariant> all();
+};
+
+struct PathVerticesVariant {
+    static constexpr const char* PATH = "indirect/vertices";
+    static constexpr bool IS_OF_SCENE = true;
+    bool is_first = true;
+    bool is_last = true;
+    Defines defines() const;
+    static std::vector<PathVerticesVariant> all();
+};
+
+struct PathSamplesVariant {
+    static constexpr const char* PATH = "indirect/samples";
+    static constexpr bool IS_OF_SCENE = true;
+    IndirectSampling sampling = IndirectSampling::BRDF;
+    bool shades = false;  // writes the light of the path instead of a sample
+    Defines defines() const;
+    static std::vector<PathSamplesVariant> all();
+};
+
+struct IndirectShadeVariant {
+    static constexpr const char* PATH = "indirect/shade";
+    static constexpr bool IS_OF_SCENE = true;
+    bool reservoir_visibility = false;
+    Defines defines() const;
+    static std::vector<IndirectShadeVariant> all();
+};
+
 // Where shading finds the light of a pixel.
 enum class ShadeSource {
     TRACED,     // its chosen sample, whose visibility was traced after all reuse
@@ -113,6 +161,7 @@ struct ShadeVariant {
 struct CompositeVariant {
     static constexpr const char* PATH = "composite";
     static constexpr bool IS_OF_SCENE = false;
+    bool indirect = false;
     bool light_alone = false;  // without emission
     Defines defines() const;
     static std::vector<CompositeVariant> all();

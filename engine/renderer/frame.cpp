@@ -1,5 +1,5 @@
-// THE FRAME: from the scene's tables to radiance and what is shown of it, stage by stage. Each stage takes values and returns values;
-// what the next frame finds is what `history_` keeps.
+// THE FRAME: from the scene's tables to radiance and what is shown of it, stage by stage. Each stage takes
+// values and returns values; what the next frame finds is what `history_` keeps.
 #include "passes/composite.h"
 #include "passes/direct/brdf_candidates.h"
 #include "passes/direct/candidates.h"
@@ -7,6 +7,9 @@
 #include "passes/direct/reuse.h"
 #include "passes/direct/shade.h"
 #include "passes/enlarge.h"
+#include "passes/indirect/paths.h"
+#include "passes/indirect/reuse.h"
+#include "passes/indirect/shade.h"
 #include "passes/trace_rays.h"
 #include "renderer/renderer.h"
 #include "shared/math/random.h"
@@ -34,7 +37,9 @@ Renderer::Values Renderer::record_frame(const FrameContext& frame, const FrameIn
     const GBuffer gbuffer =
         gbuffer_.record(frame, world_, input.camera, find_previous(frame, history_.surfaces));
     const ReflectedLight direct = light_directly(frame, gbuffer);
-    const Picture radiance = enlarge(frame, composite(frame, gbuffer, direct));
+    ReflectedLight indirect;
+    if (frame.plan.indirect.runs) indirect = light_indirectly(frame, gbuffer);
+    const Picture radiance = enlarge(frame, composite(frame, gbuffer, direct, indirect));
     Picture display;
     if (input.display) display = show(frame, *input.display, radiance, gbuffer);
     history_.surfaces.keep(frame.frame, gbuffer.surfaces);
@@ -101,6 +106,44 @@ ReflectedLight Renderer::light_directly(const FrameContext& frame, const GBuffer
         light = shade_direct(frame, gbuffer, slot, {&over_space, seen, summed}, light);
     }
     return light;
+}
+
+ReflectedLight Renderer::light_indirectly(const FrameContext& frame, const GBuffer& gbuffer) {
+    const SampleSlot slot{0, 0, frame.plan.indirect.target_weights, {frame.frame, frame.seed, RAY_SHADOW}};
+    const Paths paths = trace_paths(frame, gbuffer, slot);
+    if (!frame.plan.indirect.keeps_samples) return finish_light(frame, gbuffer, slot, paths);
+    return reuse_paths(frame, gbuffer, slot, finish_samples(frame, gbuffer, slot, paths));
+}
+
+ReflectedLight Renderer::reuse_paths(const FrameContext& frame, const GBuffer& gbuffer,
+                                     const SampleSlot& slot, const Samples& fresh) {
+    const ReusePlan& reuse = frame.plan.indirect.reuse;
+    Samples over_time = fresh;
+    if (const auto previous = find_previous(frame, reuse, history_.indirect, slot.target_weights)) {
+        const bool tests = reuse.tests_chosen_samples && reuse.spatial_steps == 0;
+        over_time = reuse_indirect_over_time(frame, {gbuffer, slot, fresh, tests}, *previous);
+    }
+    if (reuse.filters_boiling) over_time = filter_indirect_boiling(frame, std::move(over_time));
+
+    Samples over_space = over_time;
+    ReflectedLight summed;
+    for (int i = 0; i < reuse.spatial_steps; ++i) {
+        const bool is_last = i + 1 == reuse.spatial_steps;
+        if (is_last && reuse.shades_all_samples) summed = take_reflected_light(frame, "indirect/light");
+        const ReuseInput input{gbuffer, slot, over_space, is_last && reuse.tests_chosen_samples,
+                               summed ? &summed : nullptr};
+        over_space = reuse_indirect_over_space(frame, input, i);
+    }
+    const Samples& kept = reuse.keeps_temporal ? over_time : over_space;
+    history_.indirect.keep(frame.frame, {kept.reservoirs, meaning_of(reuse, slot.target_weights)});
+    if (summed) return summed;
+    Answers seen;
+    // Without anything merged the samples are fresh: their pixels see them.
+    if (reuse.tests_chosen_samples && over_space.rays) {
+        seen = trace_visibility(frame, "indirect/visibility", over_space.rays, frame.pixel_count(),
+                                slot.shadow_key);
+    }
+    return shade_indirect(frame, gbuffer, slot, over_space, seen);
 }
 
 }  // namespace tarn

@@ -19,6 +19,7 @@ struct FrameHistory {
     History<Surfaces> surfaces;
     History<Exposure> exposure;
     std::vector<History<KeptSamples>> direct;  // one a target
+    History<KeptSamples> indirect;
 
     void forget() { *this = {}; }
 };

@@ -15,9 +15,9 @@
 #include "passes/exposure.h"
 #include "passes/frame_context.h"
 #include "passes/gbuffer.h"
-#include "passes/reflected_light.h"
 #include "passes/gpu_light_tree.h"
 #include "passes/gpu_scene.h"
+#include "passes/reflected_light.h"
 #include "plan/frame_plan.h"
 #include "rays/ray_tracer.h"
 #include "renderer/frame_history.h"
@@ -97,6 +97,9 @@ class Renderer {
     void survey();
     Values record_frame(const FrameContext& frame, const FrameInput& input);
     ReflectedLight light_directly(const FrameContext& frame, const GBuffer& gbuffer);
+    ReflectedLight light_indirectly(const FrameContext& frame, const GBuffer& gbuffer);
+    ReflectedLight reuse_paths(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,
+                               const Samples& fresh);
     Picture show(const FrameContext& frame, const DisplayInput& input, const Picture& radiance,
                  const GBuffer& gbuffer);
     void fit_light_tree();

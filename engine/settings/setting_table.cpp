@@ -15,6 +15,16 @@ struct DirectReusePart {
     const ReuseSettings& operator()(const RenderSettings& s) const { return s.direct.reuse; }
 };
 
+struct IndirectPart {
+    IndirectSettings& operator()(RenderSettings& s) const { return s.indirect; }
+    const IndirectSettings& operator()(const RenderSettings& s) const { return s.indirect; }
+};
+
+struct IndirectReusePart {
+    ReuseSettings& operator()(RenderSettings& s) const { return s.indirect.reuse; }
+    const ReuseSettings& operator()(const RenderSettings& s) const { return s.indirect.reuse; }
+};
+
 void add_direct_rows(std::vector<Setting>& table) {
     using S = DirectSettings;
     SettingRows<DirectPart> rows(table, "");
@@ -86,9 +96,6 @@ void add_weight_rows(SettingRows<Part>& rows) {
             "restir: trace visibility in the weights, which makes 1/Z, balance and pairwise unbiased, also "
             "while things move",
             &S::mis_visibility)
-        .toggle("visibility-reuse",
-                "restir: drop fresh samples that are occluded before they are reused (Bitterli et al. 2020)",
-                &S::visibility_reuse)
         .choose("final-visibility",
                 "restir: how the visibility of the sample that lights the pixel is known: traced at the end, "
                 "reused "
@@ -96,14 +103,14 @@ void add_weight_rows(SettingRows<Part>& rows) {
                 &S::final_visibility, {"traced", "reused", "averaged"});
 }
 
-// The rows of reuse. `runs` says of a step whether it runs at all: it belongs to the stage that reuses.
+// The rows of reuse. `stage_reuses` says whether its stage reuses anything.
 template <class Part>
 void add_reuse_rows(std::vector<Setting>& table, const std::string& prefix,
-                    bool (DirectSettings::*stage_resamples)() const) {
+                    bool (*stage_reuses)(const RenderSettings&)) {
     using S = ReuseSettings;
     SettingRows<Part> rows(table, prefix);
-    const auto where = [stage_resamples](auto holds) {
-        return [=](const RenderSettings& s) { return (s.direct.*stage_resamples)() && holds(Part()(s)); };
+    const auto where = [stage_reuses](auto holds) {
+        return [=](const RenderSettings& s) { return stage_reuses(s) && holds(Part()(s)); };
     };
     rows.where(where([](const S&) { return true; }))
         .choose("reuse", "restir: which samples are reused", &S::reuse,
@@ -126,6 +133,42 @@ void add_reuse_rows(std::vector<Setting>& table, const std::string& prefix,
     add_temporal_rows(rows);
 }
 
+bool direct_reuses(const RenderSettings& s) {
+    return s.direct.uses_restir();
+}
+
+bool indirect_reuses(const RenderSettings& s) {
+    return s.indirect.uses_restir();
+}
+
+// Fresh light samples may be hidden; fresh path samples never are.
+void add_visibility_reuse_row(std::vector<Setting>& table) {
+    SettingRows<DirectReusePart>(table, "")
+        .where(
+            [](const RenderSettings& s) { return direct_reuses(s) && s.direct.reuse.reuse != Reuse::NONE; })
+        .toggle("visibility-reuse",
+                "restir: drop fresh samples that are occluded before they are reused (Bitterli et al. 2020)",
+                &ReuseSettings::visibility_reuse);
+}
+
+void add_indirect_rows(std::vector<Setting>& table) {
+    using S = IndirectSettings;
+    SettingRows<IndirectPart> rows(table, "");
+    rows.choose(
+        "indirect",
+        "Light that comes by way of other surfaces: none, one path a pixel, or path samples reused over "
+        "time and neighbours",
+        &S::mode, {"off", "path", "restir"});
+    rows.where(&S::runs)
+        .number("indirect-bounces", "", "Surfaces that light meets before the one that is seen", &S::bounces,
+                1, 16)
+        .choose("indirect-sampling",
+                "How the first direction of a path is drawn: evenly, by the cosine or by the BRDF",
+                &S::sampling, {"uniform", "cosine", "brdf"})
+        .number("indirect-candidates", "", "Light candidates at each surface that a path meets",
+                &S::candidates, 1, 64);
+}
+
 void add_view_rows(std::vector<Setting>& table) {
     SettingRows<DirectPart>(table, "").choose(
         "debug-view",
@@ -139,7 +182,10 @@ const std::vector<Setting>& setting_table() {
     static const std::vector<Setting> table = [] {
         std::vector<Setting> rows;
         add_direct_rows(rows);
-        add_reuse_rows<DirectReusePart>(rows, "", &DirectSettings::uses_restir);
+        add_reuse_rows<DirectReusePart>(rows, "", direct_reuses);
+        add_visibility_reuse_row(rows);
+        add_indirect_rows(rows);
+        add_reuse_rows<IndirectReusePart>(rows, "indirect-", indirect_reuses);
         add_view_rows(rows);
         return rows;
     }();

@@ -7,11 +7,13 @@
 #include <vector>
 
 #include "settings/direct_settings.h"
+#include "settings/indirect_settings.h"
 
 namespace tarn {
 
 struct RenderSettings {
     DirectSettings direct;
+    IndirectSettings indirect;
 };
 
 // One row of the table. Values travel as doubles; a choice is the index into `choices`.

@@ -1,5 +1,6 @@
 // Joins what the stages of light found: emission + albedo x diffuse light + specular light.
 //
+// TARN_INDIRECT: with indirect light.
 // TARN_LIGHT_ALONE: without emission, where a debug view shows something else than light.
 #include "lib/frame.glsl"
 #include "lib/gbuffer.glsl"
@@ -9,13 +10,22 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = UNIT_PASS_A) uniform sampler2D direct_diffuse;
 layout(binding = UNIT_PASS_B) uniform sampler2D direct_specular;
+#ifdef TARN_INDIRECT
+layout(binding = UNIT_PASS_C) uniform sampler2D indirect_diffuse;
+layout(binding = UNIT_PASS_D) uniform sampler2D indirect_specular;
+#endif
 layout(binding = 0, rgba32f) writeonly uniform image2D out_radiance;
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (is_outside(pixel)) return;
-    vec3 radiance = load_layer(pixel, LAYER_DIFFUSE).xyz * texelFetch(direct_diffuse, pixel, 0).xyz +
-                    texelFetch(direct_specular, pixel, 0).xyz;
+    vec3 diffuse = texelFetch(direct_diffuse, pixel, 0).xyz;
+    vec3 specular = texelFetch(direct_specular, pixel, 0).xyz;
+#ifdef TARN_INDIRECT
+    diffuse += texelFetch(indirect_diffuse, pixel, 0).xyz;
+    specular += texelFetch(indirect_specular, pixel, 0).xyz;
+#endif
+    vec3 radiance = load_layer(pixel, LAYER_DIFFUSE).xyz * diffuse + specular;
 #ifndef TARN_LIGHT_ALONE
     radiance += load_layer(pixel, LAYER_EMISSION).xyz;
 #endif

@@ -86,7 +86,8 @@ void merge(const FrameContext& frame, const ReuseKernel& kernel, const ReuseInpu
 
 Samples run_reuse_step(const FrameContext& frame, const ReuseKernel& kernel, const ReuseInput& input) {
     Samples merged;
-    merged.reservoirs = frame.take_pixel_rows(kernel.shaders.name, RESERVOIR_ROWS, BufferUse::DEVICE);
+    merged.reservoirs = frame.take_pixel_rows(kernel.shaders.name,
+                                              RESERVOIR_ROWS + kernel.shaders.sample_rows, BufferUse::DEVICE);
     if (input.tests_samples) merged.rays = frame.take_pixel_rows("shadow_rays", RAY_ROWS, BufferUse::SHARED);
     const int rows = rows_per_band(frame.size_px, kernel.rays_per_pixel);
     const std::size_t capacity = std::size_t(rows) * std::size_t(frame.size_px.x) * kernel.rays_per_pixel;

@@ -14,7 +14,7 @@
 namespace tarn {
 
 struct Samples {
-    Rows reservoirs;  // RESERVOIR_ROWS rows a pixel
+    Rows reservoirs;  // RESERVOIR_ROWS and the rows of a sample, a pixel
     Rows rays;  // RAY_ROWS rows a pixel, shared with the CPU: they test the samples; null: nobody asked for
                 // them
 };
@@ -58,6 +58,7 @@ std::optional<Previous<KeptSamples>> find_previous(const FrameContext& frame, co
 struct ReuseShaders {
     std::string name;  // "direct/temporal": of the pass
     std::function<const Program&(ReuseRun run)> program;
+    std::size_t sample_rows = 0;  // of a sample, behind those of its reservoir
 };
 
 }  // namespace tarn

@@ -5,12 +5,14 @@
 #include "shared/math/light_sample.h"
 
 #define SAMPLE LightSample
+#define SAMPLE_ROWS LIGHT_SAMPLE_ROWS
 const uint TEMPORAL_DIMENSION = DIMENSION_TEMPORAL;
 const uint SPATIAL_DIMENSION = DIMENSION_SPATIAL;
 
 SAMPLE no_sample() { return no_light_sample(); }
 uvec3 pack_sample(SAMPLE drawn) { return pack_light_sample(drawn); }
-SAMPLE unpack_sample(uvec3 words) { return unpack_light_sample(words); }
+SAMPLE load_sample(usamplerBuffer rows, uvec3 head, int row) { return unpack_light_sample(head); }
+uvec4 pack_sample_row(SAMPLE drawn, uint index) { return uvec4(0u); }
 // False for a sample that a move between frames has lost.
 bool is_sample(SAMPLE drawn) { return drawn.light != INVALID_INDEX; }
 
@@ -33,6 +35,9 @@ RayRecord sample_ray(Receiver r, SAMPLE drawn, ivec2 pixel) {
 
 // |dT/dx| of the shift from one receiver's domain to another's. A place on a light is the same for both.
 float shift_jacobian(Receiver from, Receiver to, SAMPLE drawn) { return 1.0f; }
+
+// Whether receivers of these GGX widths may share samples, whatever the weights.
+bool can_share(float alpha, float other_alpha) { return true; }
 
 #ifdef TARN_PREVIOUS_FRAME
 #include "lib/direct/previous_lights.glsl"

@@ -65,6 +65,11 @@ SAMPLE move_to_present(SAMPLE drawn) { return drawn; }
 float move_jacobian(SAMPLE present, SAMPLE previous) { return 1.0f; }
 #endif
 
+// |dT/dx| from the previous receiver in the last frame to this one in the present: receivers share their domain.
+float temporal_jacobian(Receiver previous_receiver, Receiver here, SAMPLE present, SAMPLE previous) {
+    return move_jacobian(present, previous);
+}
+
 // p-hat in the last frame, of a receiver and a sample of the last frame.
 float previous_sample_target(Receiver previous, SAMPLE drawn) {
     return target_at(previous, load_previous_incident_light(drawn, previous.point.position));

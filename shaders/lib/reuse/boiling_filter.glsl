@@ -3,6 +3,7 @@
 //
 // The neighbourhood is the group of 8 x 8 pixels, the yardstick the mean of its weights (target x contribution weight)
 // over reservoirs that hold a sample.
+// SAMPLE_ROWS: rows of a sample behind its reservoir's own.
 #include "shared/math/reservoir.h"
 
 // The same memory: a pixel reads its own rows, before it writes one of them.
@@ -26,7 +27,7 @@ float group_mean() {
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     bool inside = !is_outside(pixel);
-    uint row = inside ? pixel_index(pixel) * RESERVOIR_ROWS : 0u;
+    uint row = inside ? pixel_index(pixel) * (RESERVOIR_ROWS + SAMPLE_ROWS) : 0u;
     Reservoir r =
         unpack_reservoir(texelFetch(in_reservoirs, int(row)), texelFetch(in_reservoirs, int(row + 1u)));
     float weight = inside ? r.target * r.contribution_weight : 0.0f;

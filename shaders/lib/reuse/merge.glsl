@@ -54,9 +54,11 @@ float load_answer(ivec2 pixel, uint slot) { return texelFetch(ray_answers, int(f
 void store_reservoir(ivec2 pixel, Receiver receiver, SampleReservoir r) {
     uvec4 row0, row1;
     pack_reservoir(r.state, pack_sample(r.chosen), row0, row1);
-    uint row = pixel_index(pixel) * RESERVOIR_ROWS;
+    uint row = pixel_index(pixel) * RESERVOIR_STRIDE;
     out_reservoirs[row] = row0;
     out_reservoirs[row + 1u] = row1;
+    for (uint i = 0u; i < SAMPLE_ROWS; ++i)
+        out_reservoirs[row + RESERVOIR_ROWS + i] = pack_sample_row(r.chosen, i);
 #ifdef TARN_LAST_STEP
     RayRecord ray = inactive_ray();
     if (holds_sample(r)) ray = sample_ray(receiver, r.chosen, pixel);

@@ -58,6 +58,7 @@ bool can_join(Receiver here, ivec2 pixel, ivec2 neighbour) {
 #ifndef TARN_PLANT_COUNT_MIRRORS
     if (MIS == MIS_ONE_OVER_Z && is_mirror_like(look, own)) return false;
 #endif
+    if (!can_share(look.alpha, own.alpha)) return false;
     return position.w >= 0.0f && is_similar(look, own, view_depth(frame_camera(), here.point.position));
 }
 

@@ -57,7 +57,7 @@ float previous_likeness(Look expected, ivec2 pixel) {
     Look found;
     bool lit = load_previous_look(pixel, found);
     float depth = view_depth(previous_camera(), expected.position);
-    if (!lit || !is_similar(expected, found, depth)) return -1.0f;
+    if (!lit || !is_similar(expected, found, depth) || !can_share(expected.alpha, found.alpha)) return -1.0f;
     return dot(expected.shading_normal, found.shading_normal);
 }
 
@@ -114,11 +114,6 @@ SampleReservoir load_previous_reservoir(ivec2 pixel, float fresh_confidence) {
     return previous;
 }
 
-// Of the move from the last frame, and from its receiver to this one.
-float total_jacobian(Pair p, SAMPLE present, SAMPLE previous) {
-    return move_jacobian(present, previous) * shift_jacobian(p.previous_receiver, p.here, present);
-}
-
 Pair make_pair(Receiver here, SampleReservoir fresh, ivec2 previous_pixel) {
     Pair p;
     p.here = here;
@@ -128,11 +123,11 @@ Pair make_pair(Receiver here, SampleReservoir fresh, ivec2 previous_pixel) {
     p.previous = load_previous_reservoir(previous_pixel, fresh.state.confidence);
     SAMPLE in_previous = p.previous.chosen;
     p.previous.chosen = move_to_present(in_previous);
-    p.previous_jacobian = total_jacobian(p, p.previous.chosen, in_previous);
+    p.previous_jacobian = temporal_jacobian(p.previous_receiver, here, p.previous.chosen, in_previous);
     // What the sample lies on is no more: the sample goes, the confidence of the history stays.
     if (!is_sample(p.previous.chosen)) p.previous.state.contribution_weight = 0.0f;
     p.fresh_in_previous = move_to_previous(fresh.chosen);
-    p.fresh_jacobian = total_jacobian(p, fresh.chosen, p.fresh_in_previous);
+    p.fresh_jacobian = temporal_jacobian(p.previous_receiver, here, fresh.chosen, p.fresh_in_previous);
 #ifdef TARN_PLANT_DROP_PREVIOUS_JACOBIAN
     p.previous_jacobian = 1.0f;
 #endif
@@ -217,7 +212,7 @@ float find_normalization(Pair p, PairTargets t, bool previous_leads) {
 void check_weights(Pair p, PairTargets t) {
     if (!WEIGHTS_SUM_TO_ONE || t.here_at_previous == 0.0f) return;
     p.fresh_in_previous = move_to_previous(p.previous.chosen);
-    p.fresh_jacobian = total_jacobian(p, p.previous.chosen, p.fresh_in_previous);
+    p.fresh_jacobian = temporal_jacobian(p.previous_receiver, p.here, p.previous.chosen, p.fresh_in_previous);
 #ifdef TARN_PLANT_DROP_FRESH_JACOBIAN
     p.fresh_jacobian = 1.0f;
 #endif

@@ -10,6 +10,9 @@ struct LightSample {
     vec2 uv;     // triangle: barycentrics; environment: octahedral direction; punctual: unused
 };
 
+// Rows behind those of a reservoir: all of a sample is in the reservoir's head.
+CONSTANT uint LIGHT_SAMPLE_ROWS = 0u;
+
 FN LightSample no_light_sample() {
     LightSample none;
     none.light = INVALID_INDEX;

@@ -39,6 +39,13 @@ FN vec3 sample_cosine_hemisphere(vec2 u) {
     return vec3(radius * cos(phi), radius * sin(phi), sqrt(max(0.0f, 1.0f - u.x)));
 }
 
+// Uniform direction around +Z. Pdf, solid angle: 1 / (2 pi).
+FN vec3 sample_uniform_hemisphere(vec2 u) {
+    float radius = sqrt(max(0.0f, 1.0f - u.x * u.x));
+    float phi = 2.0f * PI * u.y;
+    return vec3(radius * cos(phi), radius * sin(phi), u.x);
+}
+
 // Uniform barycentrics (weights of the second and third vertex). Pdf, area: 1 / area. The unit square is
 // folded along its diagonal (Heitz, "A Low-Distortion Map Between Triangle and Square", 2019).
 FN vec2 sample_triangle(vec2 u) {

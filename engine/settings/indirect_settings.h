@@ -1,0 +1,28 @@
+// What indirect light can be told to do.
+#pragma once
+
+#include "settings/reuse_settings.h"
+
+namespace tarn {
+
+enum class IndirectMode {
+    OFF,
+    PATH,    // one path a pixel
+    RESTIR,  // path samples reused over time and neighbours
+};
+
+// How the first direction of a path is drawn.
+enum class IndirectSampling { UNIFORM, COSINE, BRDF };
+
+struct IndirectSettings {
+    IndirectMode mode = IndirectMode::OFF;
+    IndirectSampling sampling = IndirectSampling::BRDF;
+    int bounces = 1;     // surfaces that light meets before the one that is seen
+    int candidates = 4;  // light candidates at each of them
+    ReuseSettings reuse;
+
+    bool runs() const { return mode != IndirectMode::OFF; }
+    bool uses_restir() const { return mode == IndirectMode::RESTIR; }
+};
+
+}  // namespace tarn

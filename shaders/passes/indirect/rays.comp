@@ -1,0 +1,28 @@
+// Draws the direction in which each pixel's path begins and writes the ray along it (lib/indirect/directions.glsl).
+#include "shared/interface/constants/indirect.h"
+#include "lib/scene_buffers.glsl"
+#include "lib/frame.glsl"
+#include "lib/gbuffer.glsl"
+#include "lib/receiver.glsl"
+#include "lib/indirect/directions.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(std430, binding = 0) writeonly buffer Rays { uvec4 out_rays[]; };
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (is_outside(pixel)) return;
+    Receiver r;
+    RayRecord ray = inactive_ray();
+    if (load_receiver(pixel, r)) {
+        vec3 local = sample_first_direction(r, random4(pixel_key(pixel), DIMENSION_INDIRECT).xyz);
+        ray = leave_surface(r.point, from_local(r.frame, local), first_direction_pdf(r, local),
+                            pixel_index(pixel));
+    }
+    uvec4 row0, row1;
+    pack_ray(ray, row0, row1);
+    uint row = pixel_index(pixel) * RAY_ROWS;
+    out_rays[row] = row0;
+    out_rays[row + 1u] = row1;
+}

@@ -1,0 +1,13 @@
+// Indirect light, reuse over space: lib/reuse/spatial.glsl with path samples.
+#include "shared/interface/constants/reuse.h"
+#include "lib/scene_buffers.glsl"
+#include "lib/frame.glsl"
+#include "lib/gbuffer.glsl"
+#include "lib/counters.glsl"
+#include "lib/receiver.glsl"
+#include "lib/neighbour_test.glsl"
+#include "lib/indirect/path_samples.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+#include "lib/reuse/spatial.glsl"

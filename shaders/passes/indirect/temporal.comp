@@ -1,0 +1,15 @@
+// Indirect light, reuse over time: lib/reuse/temporal.glsl with path samples.
+#include "shared/interface/constants/reuse.h"
+#define TARN_PREVIOUS_FRAME
+#include "lib/scene_buffers.glsl"
+#include "lib/frame.glsl"
+#include "lib/gbuffer.glsl"
+#include "lib/counters.glsl"
+#include "lib/receiver.glsl"
+#include "lib/neighbour_test.glsl"
+#include "lib/previous.glsl"
+#include "lib/indirect/path_samples.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+#include "lib/reuse/temporal.glsl"
