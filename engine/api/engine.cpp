@@ -10,6 +10,7 @@
 #include "api/scene_state.h"
 #include "api/settings_access.h"
 #include "core/data_files.h"
+#include "image_io/image_io.h"
 #include "passes/display.h"
 #include "platform/context.h"
 #include "rays/ray_tracer.h"
@@ -30,10 +31,17 @@ std::unique_ptr<Context> open_context(const EngineOptions& options) {
 FrameReport describe_frame(const FrameOutput& output, const Renderer& renderer) {
     FrameReport report;
     report.frame_ms = output.timings.frame_ms;
-    for (const PassTiming& pass : output.timings.passes) report.passes.push_back({pass.name, pass.ms});
+    for (const PassTiming& pass : output.timings.passes) {
+        const bool traces_rays = pass.is_on_cpu && pass.name != "lights/tree";
+        report.passes.push_back({pass.name, pass.ms, traces_rays});
+    }
     report.shadow_rays = output.shadow_rays.traced;
     report.closest_rays = output.closest_rays;
+    report.triangles_drawn = output.raster.triangles_drawn;
+    report.triangles_total = output.raster.triangles_total;
     report.counters = renderer.read_counters();
+    for (const FeatureReason& entry : renderer.plan().feature_reasons)
+        report.plan.push_back({entry.define, entry.reason});
     return report;
 }
 
@@ -79,6 +87,10 @@ struct Screen {
     FrameRecorder recorder;
     DisplayPass pass;
     AutoExposure exposure;
+    const Texture2D* picture = nullptr;  // the pass's
+    std::uint64_t frame = 0;             // which it shows; 0: none
+    float exposure_ev = 0.0f;
+    double ms = 0.0;
 };
 
 struct ViewState final : SceneFollower {
@@ -110,6 +122,8 @@ struct ViewState final : SceneFollower {
         input.frame = frame.number;
         input.seed = frame.seed;
         input.settings = SettingsAccess::values(frame.settings);
+        display_view = parse_display_view(frame.display.view);
+        display = frame.display;
         last.reset();
         last.emplace(renderer->render(input));
         ++rendered;
@@ -125,15 +139,27 @@ struct ViewState final : SceneFollower {
         return {image.width, image.height, std::move(image.values), describe_frame(*last, *renderer)};
     }
 
-    const Texture2D& display(std::optional<float> exposure_ev) {
+    // The last frame as it is shown, made once.
+    const Screen& show() {
         const FrameOutput& frame = output();
         if (!screen) screen.emplace(renderer->width_px(), renderer->height_px());
-        const float ev = exposure_ev ? *exposure_ev : screen->exposure.follow(frame.radiance, rendered);
-        screen->recorder.begin();
-        const Texture2D& picture =
-            screen->pass.record(screen->recorder, frame.radiance, frame.gbuffer, DisplayView::RADIANCE, ev);
-        screen->recorder.end();
-        return picture;
+        Screen& s = *screen;
+        if (s.frame == rendered) return s;
+        s.exposure_ev = display.exposure_ev ? s.exposure.start_from(*display.exposure_ev)
+                                            : s.exposure.follow(frame.radiance, rendered, display.elapsed_s);
+        s.recorder.begin();
+        s.picture = &s.pass.record(s.recorder, frame.radiance, frame.gbuffer, display_view, s.exposure_ev);
+        s.ms = s.recorder.end().frame_ms;
+        s.frame = rendered;
+        return s;
+    }
+
+    FrameReport draw(const Frame& frame) {
+        render(frame);
+        FrameReport report = describe_frame(*last, *renderer);
+        report.passes.push_back({"display", show().ms});
+        report.frame_ms += show().ms;
+        return report;
     }
 
     std::shared_ptr<EngineState> engine;
@@ -141,6 +167,8 @@ struct ViewState final : SceneFollower {
     std::unique_ptr<Renderer> renderer;
     std::optional<FrameOutput> last;
     std::uint64_t rendered = 0;  // frames
+    Display display;             // of the last one
+    DisplayView display_view = DisplayView::RADIANCE;
     std::optional<Screen> screen;
 };
 
@@ -177,8 +205,7 @@ Picture View::render(const Frame& frame) {
 FrameReport View::draw(const Frame& frame) {
     return guard([&] {
         const auto gl = state_->engine->enter();
-        state_->render(frame);
-        return describe_frame(state_->output(), *state_->renderer);
+        return state_->draw(frame);
     });
 }
 
@@ -189,24 +216,58 @@ Picture View::read() const {
     });
 }
 
-unsigned View::texture(std::optional<float> exposure_ev) {
+unsigned View::texture() {
     return guard([&] {
         const auto gl = state_->engine->enter();
-        return state_->display(exposure_ev).id();
+        return state_->show().picture->id();
     });
 }
 
-void View::present(int framebuffer_width_px, int framebuffer_height_px, std::optional<float> exposure_ev) {
+void View::present(int framebuffer_width_px, int framebuffer_height_px) {
     guard([&] {
         const auto gl = state_->engine->enter();
         if (!gl) throw tarn::Error("the engine's own context has no window to present a picture in");
-        state_->display(exposure_ev);
-        state_->screen->pass.present({framebuffer_width_px, framebuffer_height_px}, gl->draw_framebuffer());
+        state_->show().pass.present({framebuffer_width_px, framebuffer_height_px}, gl->draw_framebuffer());
+    });
+}
+
+void View::write_png(const std::filesystem::path& file) const {
+    guard([&] {
+        const auto gl = state_->engine->enter();
+        const Texture2D& picture = *state_->show().picture;
+        const std::vector<glm::u8vec4> texels = picture.download<glm::u8vec4>();
+        Image image(picture.width_px(), picture.height_px(), 3);
+        for (std::size_t i = 0; i < texels.size(); ++i) {
+            for (int c = 0; c < 3; ++c) image.values[3 * i + std::size_t(c)] = float(texels[i][c]) / 255.0f;
+        }
+        tarn::write_png(file, image);
+    });
+}
+
+float View::exposure_ev() const {
+    return guard([&] {
+        const auto gl = state_->engine->enter();
+        return state_->show().exposure_ev;
     });
 }
 
 void View::reset_history() {
     state_->renderer->reset_history();
+}
+
+std::string View::reload_shaders() {
+    return guard([&] {
+        const auto gl = state_->engine->enter();
+        std::string errors = state_->renderer->reload_shaders();
+        if (state_->screen) errors += state_->screen->programs.reload();
+        return errors;
+    });
+}
+
+std::vector<DisplayViewInfo> Display::list_views() {
+    std::vector<DisplayViewInfo> list;
+    for (const tarn::DisplayViewInfo& view : display_views()) list.push_back({view.name, view.sentence});
+    return list;
 }
 
 }  // namespace tarn::api

@@ -1,6 +1,7 @@
 #include "api/exposure.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/display.h"
 
@@ -8,7 +9,7 @@ namespace tarn::api {
 namespace {
 
 constexpr std::uint64_t INTERVAL = 4;  // frames between looks: each waits for the device
-constexpr float SHARE = 0.4f;          // of the way to the new exposure, a look
+constexpr double TIME_S = 0.4;         // after which 1 / e of the way to the new exposure is left
 constexpr std::size_t SAMPLES = 4096;
 
 // Some thousand pixels, evenly spread.
@@ -24,11 +25,14 @@ Image sample_pixels(const Texture2D& radiance) {
 
 }  // namespace
 
-float AutoExposure::follow(const Texture2D& radiance, std::uint64_t frame) {
+float AutoExposure::follow(const Texture2D& radiance, std::uint64_t frame, double elapsed_s) {
+    elapsed_s_ += std::max(0.0, elapsed_s);
     if (frame_ != 0 && frame < frame_ + INTERVAL) return exposure_ev_;
     const float target_ev = auto_exposure_ev(sample_pixels(radiance));
-    exposure_ev_ += (frame_ == 0 ? 1.0f : SHARE) * (target_ev - exposure_ev_);
+    const double way = frame_ == 0 ? 1.0 : 1.0 - std::exp(-elapsed_s_ / TIME_S);
+    exposure_ev_ += float(way) * (target_ev - exposure_ev_);
     frame_ = frame;
+    elapsed_s_ = 0.0;
     return exposure_ev_;
 }
 

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "tarn/camera.h"
+#include "tarn/display.h"
 #include "tarn/picture.h"
 #include "tarn/scene.h"
 #include "tarn/settings.h"
@@ -63,6 +63,7 @@ struct Frame {
     std::uint32_t number = 0;  // where it is one more than the last frame's, samples of that frame are reused
     std::uint32_t seed = 0;    // of all random numbers
     Settings settings;
+    Display display;
 };
 
 // A scene as seen at one size. Keeps the last frame, from which the next one reuses samples. It keeps engine
@@ -79,25 +80,32 @@ class View {
     int width_px() const;
     int height_px() const;
 
-    // Renders a frame and reads it back.
+    // Renders a frame and reads it back. Error for a display view that there is not.
     Picture render(const Frame& frame);
 
-    // Renders a frame that stays on the device: for windows.
+    // Renders a frame that stays on the device, and makes it ready to be shown: for windows.
     FrameReport draw(const Frame& frame);
 
     // Of the last frame; Error before the first one.
     // Reads the radiance back.
     Picture read() const;
-    // The name of a GL texture, RGBA8, row 0 on top: exposed, tone-mapped, sRGB. nullopt: an exposure that
-    // follows the pictures. Valid until the next call of this view.
-    unsigned texture(std::optional<float> exposure_ev = std::nullopt);
+    // The name of a GL texture, RGBA8, row 0 on top: the frame as its Display says, for the eye (sRGB). Valid
+    // until the next call of this view.
+    unsigned texture();
     // Draws that over the whole of the current draw framebuffer, whose size it is given. Error in a context
     // of the engine's own, which has no window.
-    void present(int framebuffer_width_px, int framebuffer_height_px,
-                 std::optional<float> exposure_ev = std::nullopt);
+    void present(int framebuffer_width_px, int framebuffer_height_px);
+    // Writes that with 8 bits a channel. The file is written whole or not at all. Error that names it.
+    void write_png(const std::filesystem::path& file) const;
+    // The exposure in EV with which it is shown.
+    float exposure_ev() const;
 
     // Forgets the last frame, as after a cut.
     void reset_history();
+
+    // Reads the shader files again that have changed. What is wrong with those that do not compile and keep
+    // their old version; empty: nothing.
+    std::string reload_shaders();
 
   private:
     std::unique_ptr<struct ViewState> state_;
