@@ -72,16 +72,15 @@ Camera to_camera(const FlyCamera& camera) {
 
 FlyCamera start_flying(const Camera& camera, double speed_m_s) {
     const Vec3 forward = normalize(camera.forward);
-    const Vec3 up = normalize(camera.up);
     FlyCamera flying;
     flying.position_ws = camera.position;
     flying.pitch_rad = std::asin(std::clamp(forward.y, -1.0, 1.0));
     // Straight up or down the heading is where the top of the picture points.
     const bool vertical = std::abs(forward.y) > 0.999999;
-    const Vec3 heading = vertical ? up * (forward.y > 0.0 ? -1.0 : 1.0) : forward;
+    const Vec3 heading = vertical ? camera.up * (forward.y > 0.0 ? -1.0 : 1.0) : forward;
     flying.yaw_rad = std::atan2(-heading.x, -heading.z);
     const Axes upright = upright_axes(flying.yaw_rad, flying.pitch_rad);
-    flying.roll_rad = std::atan2(dot(up, upright.right), dot(up, upright.up));
+    flying.roll_rad = std::atan2(dot(camera.up, upright.right), dot(camera.up, upright.up));
     flying.orthographic = camera.orthographic;
     flying.half_height = camera.half_height;
     flying.speed_m_s = speed_m_s;

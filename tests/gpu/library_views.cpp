@@ -15,6 +15,13 @@ using tarn::test::TemporaryFolder;
 
 constexpr int SIZE_PX = 16;
 
+tarn::PassTime find_pass(const tarn::FrameReport& report, const std::string& name) {
+    const auto pass = std::find_if(report.passes.begin(), report.passes.end(),
+                                   [&](const tarn::PassTime& p) { return p.name == name; });
+    EXPECT_NE(pass, report.passes.end()) << name;
+    return pass == report.passes.end() ? tarn::PassTime() : *pass;
+}
+
 class LibraryViews : public testing::Test {
   protected:
     static void SetUpTestSuite() { engine_ = std::make_unique<tarn::Engine>(); }
@@ -104,18 +111,15 @@ TEST_F(LibraryViews, TheExposureOfOtherViewsIsThatOfThePicture) {
 }
 
 TEST_F(LibraryViews, AReportSaysWhatWasDrawnTracedAndDecided) {
-    const tarn::FrameReport report = draw("radiance", 0.0f);
+    tarn::Frame by_tree = frame_of(FROM_ABOVE, number_++);
+    by_tree.settings.set("direct", "light-tree");
+    const tarn::FrameReport report = view_.draw(by_tree);
     EXPECT_EQ(report.triangles_total, 2u);
     EXPECT_EQ(report.triangles_drawn, 2u);
-    const auto find = [&](const std::string& name) {
-        const auto pass = std::find_if(report.passes.begin(), report.passes.end(),
-                                       [&](const tarn::PassTime& p) { return p.name == name; });
-        EXPECT_NE(pass, report.passes.end()) << name;
-        return pass == report.passes.end() ? tarn::PassTime() : *pass;
-    };
-    EXPECT_TRUE(find("visibility").traces_rays);
-    EXPECT_FALSE(find("gbuffer/raster").traces_rays);
-    EXPECT_FALSE(find("display").traces_rays);
+    EXPECT_TRUE(find_pass(report, "visibility").traces_rays);
+    EXPECT_FALSE(find_pass(report, "lights/tree").traces_rays);
+    EXPECT_FALSE(find_pass(report, "gbuffer/raster").traces_rays);
+    EXPECT_FALSE(find_pass(report, "display").traces_rays);
     const auto decided = [&](const std::string& define) {
         return std::any_of(report.plan.begin(), report.plan.end(), [&](const tarn::PlanReason& entry) {
             EXPECT_FALSE(entry.reason.empty()) << entry.name;
