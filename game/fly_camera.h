@@ -1,16 +1,14 @@
 // A camera that flies: keys move it, the mouse turns it. Pure functions of state, input and time.
 #pragma once
 
-#include <glm/glm.hpp>
+#include "vectors.h"
 
-#include "world/world.h"
-
-namespace tarn {
+namespace game {
 
 // Yaw 0 looks along -Z; positive yaw turns left, positive pitch up, positive roll tilts the head to the
 // right.
 struct FlyCamera {
-    glm::dvec3 position_ws{0.0};
+    Vec3 position_ws;
     double yaw_rad = 0.0;
     double pitch_rad = 0.0;
     double roll_rad = 0.0;
@@ -21,13 +19,13 @@ struct FlyCamera {
 
 // What a person asks for during one frame.
 struct FlyInput {
-    glm::dvec3 move{0.0};  // right, up (of the world), forward; -1 to 1 each
+    Vec3 move;  // right, up (of the world), forward; -1 to 1 each
     bool fast = false;
-    glm::dvec2 look_px{0.0};   // mouse movement: right, down
+    Vec2 look_px;              // mouse movement: right, down
     double wheel_steps = 0.0;  // positive: faster
 
     // Whether anything moves or turns the camera; the wheel alone does not.
-    bool moves_camera() const { return move != glm::dvec3(0.0) || look_px != glm::dvec2(0.0); }
+    bool moves_camera() const;
 };
 
 // The camera after `dt_s` seconds of `input`. Movement is v * dt, so that equal times give equal ways at any
@@ -35,14 +33,14 @@ struct FlyInput {
 // 1e-6 to 1e6 m/s.
 FlyCamera fly(const FlyCamera& camera, const FlyInput& input, double dt_s);
 
-// The camera as the renderer takes it; `aspect` = width / height.
-CameraRecord camera_record(const FlyCamera& camera, const World& world, double aspect);
+// The camera as the engine takes it.
+Camera to_camera(const FlyCamera& camera);
 
-// The flying camera that sees what `record` sees, with the speed of default_speed_m_s(). A record that looks
-// straight up or down is taken as it is; fly() then brings it within its pitch limit.
-FlyCamera start_flying(const CameraRecord& record, const World& world);
+// The flying camera that sees what `camera` sees. One that looks straight up or down is taken as it is; fly()
+// then brings it within its pitch limit.
+FlyCamera start_flying(const Camera& camera, double speed_m_s);
 
-// Crosses the scene in about ten seconds.
-double default_speed_m_s(const World& world);
+// m/s: crosses the box in about ten seconds; 1 for an empty one.
+double default_speed_m_s(const Box& bounds);
 
-}  // namespace tarn
+}  // namespace game

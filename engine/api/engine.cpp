@@ -9,6 +9,7 @@
 #include "api/scene_state.h"
 #include "api/settings_access.h"
 #include "core/data_files.h"
+#include "image_io/image_io.h"
 #include "passes/display.h"
 #include "platform/context.h"
 #include "rays/ray_tracer.h"
@@ -29,10 +30,17 @@ std::unique_ptr<Context> open_context(const EngineOptions& options) {
 FrameReport describe_frame(const FrameOutput& output, const Renderer& renderer) {
     FrameReport report;
     report.frame_ms = output.timings.frame_ms;
-    for (const PassTiming& pass : output.timings.passes) report.passes.push_back({pass.name, pass.ms});
+    for (const PassTiming& pass : output.timings.passes) {
+        const bool traces_rays = pass.is_on_cpu && pass.name != "lights/tree";
+        report.passes.push_back({pass.name, pass.ms, traces_rays});
+    }
     report.shadow_rays = output.shadow_rays.traced;
     report.closest_rays = output.closest_rays;
+    report.triangles_drawn = output.raster.triangles_drawn;
+    report.triangles_total = output.raster.triangles_total;
     report.counters = renderer.read_counters();
+    for (const FeatureReason& entry : renderer.plan().feature_reasons)
+        report.plan.push_back({entry.define, entry.reason});
     return report;
 }
 
@@ -115,17 +123,16 @@ struct ViewState final : SceneFollower {
         return {image.width, image.height, std::move(image.values), describe_frame(*last, *renderer)};
     }
 
+    FrameReport draw(const Frame& frame) {
+        render(frame);
+        return describe_frame(*last, *renderer);
+    }
+
     std::shared_ptr<EngineState> engine;
     std::shared_ptr<SceneState> scene;
     std::unique_ptr<Renderer> renderer;
     std::optional<FrameOutput> last;
 };
-
-std::vector<DisplayViewInfo> list_display_views() {
-    std::vector<DisplayViewInfo> result;
-    for (const tarn::DisplayViewInfo& view : display_views()) result.push_back({view.name, view.sentence});
-    return result;
-}
 
 View::View(const Engine& engine, const Scene& scene, int width_px, int height_px) {
     guard([&] {
@@ -160,8 +167,7 @@ Picture View::render(const Frame& frame) {
 FrameReport View::draw(const Frame& frame) {
     return guard([&] {
         const auto gl = state_->engine->enter();
-        state_->render(frame);
-        return describe_frame(state_->output(), *state_->renderer);
+        return state_->draw(frame);
     });
 }
 
@@ -193,8 +199,34 @@ void View::present(int framebuffer_width_px, int framebuffer_height_px) {
     });
 }
 
+void View::write_png(const std::filesystem::path& file) const {
+    guard([&] {
+        const auto gl = state_->engine->enter();
+        const Texture2D& picture = *state_->output().display;
+        const std::vector<glm::u8vec4> texels = picture.download<glm::u8vec4>();
+        Image image(picture.width_px(), picture.height_px(), 3);
+        for (std::size_t i = 0; i < texels.size(); ++i) {
+            for (int c = 0; c < 3; ++c) image.values[3 * i + std::size_t(c)] = float(texels[i][c]) / 255.0f;
+        }
+        tarn::write_png(file, image);
+    });
+}
+
 void View::reset_history() {
     state_->renderer->reset_history();
+}
+
+std::string View::reload_shaders() {
+    return guard([&] {
+        const auto gl = state_->engine->enter();
+        return state_->renderer->reload_shaders();
+    });
+}
+
+std::vector<DisplayViewInfo> Display::list_views() {
+    std::vector<DisplayViewInfo> list;
+    for (const tarn::DisplayViewInfo& view : display_views()) list.push_back({view.name, view.sentence});
+    return list;
 }
 
 }  // namespace tarn::api

@@ -89,6 +89,21 @@ Box Scene::bounds() const {
     return {to_public(world.bounds.lower + world.origin_ws), to_public(world.bounds.upper + world.origin_ws)};
 }
 
+SceneFacts Scene::facts() const {
+    const World& world = state_->world;
+    SceneFacts facts;
+    for (const WorldInstance& instance : world.instances)
+        facts.triangles += world.meshes[instance.mesh].triangle_count;
+    facts.instances = world.instances.size();
+    facts.materials = state_->scene.materials.size();
+    facts.textures = state_->scene.images.size();
+    facts.punctual_lights = world.lights.punctual_count;
+    facts.light_triangles = world.lights.count - world.lights.punctual_count;
+    facts.sky_width_px = int(world.environment.width);
+    facts.sky_height_px = int(world.environment.height);
+    return facts;
+}
+
 std::size_t Scene::camera_count() const {
     return state_->scene.cameras.size();
 }

@@ -2,6 +2,7 @@
 #include "tarn/settings.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "api/guard.h"
 #include "api/settings_access.h"
@@ -79,6 +80,28 @@ void Settings::set(const std::string& name, const std::string& value) {
 
 std::string Settings::get(const std::string& name) const {
     return guard([&] { return find_row(name).format(values_->settings); });
+}
+
+void Settings::set_number(const std::string& name, double value) {
+    guard([&] {
+        const Setting& row = find_row(name);
+        if (!(value >= row.minimum && value <= row.maximum) || (row.is_whole && value != std::floor(value))) {
+            throw tarn::Error("{}: {} is not a {}number from {} to {}", name, value,
+                              row.is_whole ? "whole " : "", row.minimum, row.maximum);
+        }
+        row.set(values_->settings, value);
+    });
+}
+
+double Settings::number(const std::string& name) const {
+    return guard([&] { return find_row(name).get(values_->settings); });
+}
+
+bool Settings::applies(const std::string& name) const {
+    return guard([&] {
+        const Setting& row = find_row(name);
+        return !row.applies || row.applies(values_->settings);
+    });
 }
 
 }  // namespace tarn::api

@@ -1,5 +1,5 @@
-// GL 4.5 core contexts: EGL without a window, a GLFW window, or OSMesa; everything else is the same for all
-// three.
+// GL 4.5 core contexts: EGL without a window, a hidden GLFW window, or OSMesa; everything else is the same
+// for all three.
 #pragma once
 
 #include <memory>
@@ -10,11 +10,9 @@
 
 namespace tarn {
 
-class Window;
-
 enum class ContextKind {
     EGL,       // no window: the headless default
-    GLFW,      // a window, visible or hidden
+    GLFW,      // a hidden window
     OSMESA,    // Mesa's off-screen library, loaded at run time: the fallback where EGL is missing
     BORROWED,  // somebody else's; see create_borrowed_context
 };
@@ -35,10 +33,6 @@ struct ContextOptions {
     ContextKind kind = ContextKind::EGL;
     int gl_threads = 0;                     // rasterizer threads of llvmpipe; 0: the driver's choice
     bool debug = DEBUG_CONTEXT_BY_DEFAULT;  // record the driver's complaints: take_debug_errors()
-    std::string window_title = "Tarn";      // the rest is for GLFW
-    int window_width_px = 1280;
-    int window_height_px = 720;
-    bool window_visible = false;
 };
 
 // A context that is current on the thread that made it; destroy it on that thread, after all its GL objects.
@@ -54,9 +48,6 @@ class Context {
 
     // Whether it is the one that Tarn made current last on this thread.
     bool is_current() const;
-
-    // The window of a GLFW context, null for the others.
-    virtual Window* window() { return nullptr; }
 
     ContextKind kind() const { return kind_; }
     const DeviceInfo& device_info() const { return device_info_; }

@@ -1,4 +1,4 @@
-// Contexts in a window, by GLFW.
+// Contexts in a hidden window, by GLFW.
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
@@ -6,7 +6,6 @@
 
 #include "core/error.h"
 #include "platform/backends.h"
-#include "platform/window.h"
 
 namespace tarn {
 namespace {
@@ -37,101 +36,61 @@ class GlfwLibrary {
 };
 
 // The window of an older GL serves only to tell which version there is.
-GLFWwindow* open_window(const ContextOptions& options, int major, int minor) {
+GLFWwindow* open_window(bool debug, int major, int minor) {
     glfwDefaultWindowHints();
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, major);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, minor);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-    glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, options.debug ? GLFW_TRUE : GLFW_FALSE);
-    glfwWindowHint(GLFW_VISIBLE, options.window_visible ? GLFW_TRUE : GLFW_FALSE);
+    glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, debug ? GLFW_TRUE : GLFW_FALSE);
+    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
-    return glfwCreateWindow(options.window_width_px, options.window_height_px, options.window_title.c_str(),
-                            nullptr, nullptr);
+    return glfwCreateWindow(1, 1, "Tarn", nullptr, nullptr);
 }
 
 class GlfwContext final : public Context {
   public:
-    explicit GlfwContext(const ContextOptions& options)
-        : Context(ContextKind::GLFW, glfwGetProcAddress), window_(open(options)) {
+    explicit GlfwContext(bool debug) : Context(ContextKind::GLFW, glfwGetProcAddress), window_(open(debug)) {
         try {
-            start(options.debug);
+            start(debug);
         } catch (...) {
             stop();
-            glfwDestroyWindow(window_.native_handle());
+            glfwDestroyWindow(window_);
             throw;
         }
     }
 
     ~GlfwContext() override {
         stop();
-        glfwDestroyWindow(window_.native_handle());
+        glfwDestroyWindow(window_);
     }
 
-    Window* window() override { return &window_; }
-
   private:
-    static GLFWwindow* open(const ContextOptions& options) {
-        GLFWwindow* handle = open_window(options, 4, 5);
+    static GLFWwindow* open(bool debug) {
+        GLFWwindow* handle = open_window(debug, 4, 5);
         const std::string reason = handle == nullptr ? describe_error() : "";
-        if (handle == nullptr) handle = open_window(options, 3, 2);
-        if (handle == nullptr)
-            throw Error("no window of {}x{} px with OpenGL 4.5 core can be opened ({})",
-                        options.window_width_px, options.window_height_px, reason);
+        if (handle == nullptr) handle = open_window(debug, 3, 2);
+        if (handle == nullptr) throw Error("no window with OpenGL 4.5 core can be opened ({})", reason);
         return handle;
     }
 
     void bind() override {
-        glfwMakeContextCurrent(window_.native_handle());
-        if (glfwGetCurrentContext() != window_.native_handle())
+        glfwMakeContextCurrent(window_);
+        if (glfwGetCurrentContext() != window_)
             throw Error("the window's context cannot be made current ({})", describe_error());
     }
 
     void unbind() override { glfwMakeContextCurrent(nullptr); }
 
     GlfwLibrary library_;
-    Window window_;
+    GLFWwindow* window_;
 };
 
 }  // namespace
 
-std::string describe_window_library() {
-    return glfwGetVersionString();
-}
-
-void Window::swap() {
-    glfwSwapBuffers(handle_);
-}
-
-void Window::poll_events() {
-    glfwPollEvents();
-}
-
-void Window::set_vsync(bool enabled) {
-    glfwSwapInterval(enabled ? 1 : 0);
-}
-
-void Window::set_title(const std::string& title) {
-    glfwSetWindowTitle(handle_, title.c_str());
-}
-
-bool Window::should_close() const {
-    return glfwWindowShouldClose(handle_) == GLFW_TRUE;
-}
-
-void Window::request_close() {
-    glfwSetWindowShouldClose(handle_, GLFW_TRUE);
-}
-
-glm::ivec2 Window::framebuffer_size_px() const {
-    glm::ivec2 size_px(0);
-    glfwGetFramebufferSize(handle_, &size_px.x, &size_px.y);
-    return size_px;
-}
-
 std::unique_ptr<Context> create_glfw_context(const ContextOptions& options) {
-    return std::make_unique<GlfwContext>(options);
+    return std::make_unique<GlfwContext>(options.debug);
 }
 
 }  // namespace tarn

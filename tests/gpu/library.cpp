@@ -1,14 +1,12 @@
 // The public surface: what a program that links Tarn can do, against the command line and against itself.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <fstream>
 #include <limits>
 
 #include "image_io/image_io.h"
 #include "support/process.h"
 // After the engine's own headers: it makes their names ambiguous inside of namespace tarn.
-#include <tarn/tarn.h>
+#include "gpu/library_floor.h"
 
 namespace {
 
@@ -17,53 +15,6 @@ using tarn::test::run_tarn;
 using tarn::test::TemporaryFolder;
 
 const std::string CORNELL = TARN_BUILD_DIR "/content/cornell.glb";
-
-tarn::Frame frame_of(const tarn::Camera& camera, std::uint32_t number = 0) {
-    tarn::Frame frame;
-    frame.camera = camera;
-    frame.number = number;
-    frame.settings.set("direct", "ris");
-    return frame;
-}
-
-double mean(const tarn::Picture& picture) {
-    double sum = 0.0;
-    for (const float value : picture.rgb) sum += value;
-    return sum / double(picture.rgb.size());
-}
-
-template <class Work>
-std::string error_of(const Work& work) {
-    try {
-        work();
-    } catch (const tarn::Error& error) {
-        return error.what();
-    }
-    return "";
-}
-
-// A floor of 2 x 2 m under a point light of 1 W/sr at 1 m, in the file `name` of the folder.
-std::string write_floor(const TemporaryFolder& folder) {
-    const float corners[] = {-1, 0, -1, -1, 0, 1, 1, 0, -1, 1, 0, 1};
-    const std::uint16_t indices[] = {0, 1, 2, 2, 1, 3};
-    std::ofstream bin(folder.file("floor.bin"), std::ios::binary);
-    bin.write(reinterpret_cast<const char*>(corners), sizeof(corners));
-    bin.write(reinterpret_cast<const char*>(indices), sizeof(indices));
-    std::ofstream(folder.file("floor.gltf")) << R"({"asset": {"version": "2.0"},
-        "extensionsUsed": ["KHR_lights_punctual"], "scene": 0, "scenes": [{"nodes": [0, 1]}],
-        "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 1}]}},
-        "nodes": [{"name": "floor", "mesh": 0}, {"name": "lamp", "translation": [0, 1, 0],
-            "extensions": {"KHR_lights_punctual": {"light": 0}}}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
-        "buffers": [{"uri": "floor.bin", "byteLength": 60}],
-        "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12}],
-        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3",
-                       "min": [-1, 0, -1], "max": [1, 0, 1]},
-                      {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}]})";
-    return folder.file("floor.gltf");
-}
-
-const tarn::Camera FROM_ABOVE = tarn::Camera::look_at({0.0, 1.5, 0.0}, {0.0, 0.0, 0.0}, 40.0);
 
 class Library : public testing::Test {
   protected:

@@ -17,6 +17,7 @@ tarn::api::Frame first_frame(const tarn::api::Scene& scene) {
     tarn::api::Frame frame;
     frame.camera = scene.default_camera(1.0);
     frame.settings.set("direct", "ris");
+    frame.display.exposure_ev = 0.0f;
     return frame;
 }
 

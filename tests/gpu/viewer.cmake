@@ -1,6 +1,11 @@
-# What the window shows: the display pass, and the viewer in a real window with real events.
+# What the window shows: the display pass, the game's window, and the viewer in it with real events.
 tarn_test(display_pass LABEL gpu LIBRARIES tarn_passes tarn_platform)
 tarn_test(exposure_pass LABEL gpu LIBRARIES tarn_passes tarn_platform tarn_test_support)
+tarn_test(game_window LABEL gpu LIBRARIES tarn_game)
+if(WITH_DISPLAY)
+  add_test(NAME game_window_in_xvfb COMMAND ${WITH_DISPLAY} $<TARGET_FILE:test_game_window>)
+  set_tests_properties(game_window_in_xvfb PROPERTIES LABELS gpu TIMEOUT 300)
+endif()
 
 find_program(XDOTOOL xdotool)
 find_program(IMPORT import)

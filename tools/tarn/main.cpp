@@ -6,7 +6,7 @@
 #include "commands.h"
 #include "core/error.h"
 #include "core/version.h"
-#include "platform/window.h"
+#include "game/window.h"
 #include "rays/ray_tracer.h"
 
 namespace tarn {
@@ -17,7 +17,7 @@ int run(int argc, char** argv) {
         "Tarn: an OpenGL 4.5 deferred rasterizer with resampled lights and Embree shadows, on the CPU."};
     app.set_version_flag("--version", [] {
         return fmt::format("{}\nEmbree {}, GLFW {}", describe_program(), describe_ray_library(),
-                           describe_window_library());
+                           game::describe_window_library());
     });
     app.require_subcommand(1);
     add_info_command(app);

@@ -1,8 +1,8 @@
 #include "scene_options.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <vector>
 
 #include "bench/text.h"
 #include "core/data_files.h"
@@ -54,22 +54,19 @@ std::string camera_name(const Scene& scene, const Camera& camera) {
     return at(scene.nodes, camera.node).name;
 }
 
-std::string list_cameras(const Scene& scene) {
-    if (scene.cameras.empty()) return "the scene has none";
+std::string list_cameras(const std::vector<std::string>& names) {
+    if (names.empty()) return "the scene has none";
     std::string list;
-    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
-        list += fmt::format("{}{} '{}'", i == 0 ? "the scene has " : ", ", i,
-                            camera_name(scene, scene.cameras[i]));
-    }
+    for (std::size_t i = 0; i < names.size(); ++i)
+        list += fmt::format("{}{} '{}'", i == 0 ? "the scene has " : ", ", i, names[i]);
     return list;
 }
 
-CameraIndex find_camera(const Scene& scene, const std::string& text) {
-    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
-        if (camera_name(scene, scene.cameras[i]) == text) return CameraIndex(i);
-    }
+std::optional<std::size_t> find_camera(const std::string& text, const std::vector<std::string>& names) {
+    const auto named = std::find(names.begin(), names.end(), text);
+    if (named != names.end()) return std::size_t(named - names.begin());
     const auto index = parse_number<std::uint32_t>(text);
-    return index && *index < scene.cameras.size() ? CameraIndex(*index) : CameraIndex();
+    return index && *index < names.size() ? std::optional<std::size_t>(*index) : std::nullopt;
 }
 
 }  // namespace
@@ -137,24 +134,38 @@ LoadedScene load_scene(const SceneOptions& options, const SceneEdit& edit) {
     return loaded;
 }
 
+CameraChoice parse_camera(const std::string& text, const std::vector<std::string>& names) {
+    CameraChoice choice;
+    choice.index = find_camera(text, names);
+    if (choice.index) return choice;
+    const auto v = parse_view(text);
+    if (!v) {
+        throw Error("camera '{}' is neither a name, an index nor x,y,z,tx,ty,tz,fov_deg; {}", text,
+                    list_cameras(names));
+    }
+    choice.position_ws = {(*v)[0], (*v)[1], (*v)[2]};
+    choice.target_ws = {(*v)[3], (*v)[4], (*v)[5]};
+    choice.vertical_fov_deg = (*v)[6];
+    if (!(choice.vertical_fov_deg > 0.0 && choice.vertical_fov_deg < 180.0)) {
+        throw Error("camera '{}': the field of view is {} degrees, it must lie between 0 and 180", text,
+                    choice.vertical_fov_deg);
+    }
+    return choice;
+}
+
 CameraRecord choose_camera(const SceneOptions& options, const Scene& scene, const World& world) {
     const double aspect = double(options.width) / double(options.height);
     if (options.camera.empty()) {
         const auto first = scene_camera(scene, world, CameraIndex(0), aspect, options.time_s);
         return first ? *first : default_camera(world, aspect);
     }
-    const CameraIndex index = find_camera(scene, options.camera);
-    if (const auto camera = scene_camera(scene, world, index, aspect, options.time_s)) return *camera;
-    if (const auto v = parse_view(options.camera)) {
-        const double fov_deg = (*v)[6];
-        if (!(fov_deg > 0.0 && fov_deg < 180.0)) {
-            throw Error("camera '{}': the field of view is {} degrees, it must lie between 0 and 180",
-                        options.camera, fov_deg);
-        }
-        return look_at(world, {(*v)[0], (*v)[1], (*v)[2]}, {(*v)[3], (*v)[4], (*v)[5]}, fov_deg, aspect);
-    }
-    throw Error("camera '{}' is neither a name, an index nor x,y,z,tx,ty,tz,fov_deg; {}", options.camera,
-                list_cameras(scene));
+    std::vector<std::string> names;
+    for (const Camera& camera : scene.cameras) names.push_back(camera_name(scene, camera));
+    const CameraChoice choice = parse_camera(options.camera, names);
+    if (choice.index) return *scene_camera(scene, world, CameraIndex(*choice.index), aspect, options.time_s);
+    const auto& [px, py, pz] = choice.position_ws;
+    const auto& [tx, ty, tz] = choice.target_ws;
+    return look_at(world, {px, py, pz}, {tx, ty, tz}, choice.vertical_fov_deg, aspect);
 }
 
 }  // namespace tarn

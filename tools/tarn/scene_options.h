@@ -2,11 +2,13 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "scene/scene.h"
 #include "world/world.h"
@@ -51,6 +53,18 @@ using SceneEdit = std::function<void(Scene&)>;
 // Loads the scene and flattens it, with the environment map if there is one. Throws Error naming what is
 // wrong.
 LoadedScene load_scene(const SceneOptions& options, const SceneEdit& edit = {});
+
+// What --camera means where the scene has cameras of these names: one of them, or a free view.
+struct CameraChoice {
+    std::optional<std::size_t> index;
+    std::array<double, 3> position_ws = {};  // the rest is for a free view
+    std::array<double, 3> target_ws = {};
+    double vertical_fov_deg = 0.0;
+};
+
+// Throws Error that lists the names where `text` is neither one of them, an index nor seven numbers that make
+// a view.
+CameraChoice parse_camera(const std::string& text, const std::vector<std::string>& names);
 
 // The camera that `options.camera` means: a name, an index, or x,y,z,tx,ty,tz,fov_deg. Throws Error listing
 // the scene's cameras where there is no such one.

@@ -94,8 +94,6 @@ ContextOptions make_context_options(const RenderOptions& options) {
     ContextOptions result;
     result.kind = parse_context_kind(options.context);
     result.gl_threads = options.scene.threads;
-    result.window_width_px = options.scene.width;
-    result.window_height_px = options.scene.height;
     return result;
 }
 

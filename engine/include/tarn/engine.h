@@ -4,11 +4,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "tarn/camera.h"
+#include "tarn/display.h"
 #include "tarn/picture.h"
 #include "tarn/scene.h"
 #include "tarn/settings.h"
@@ -57,21 +56,6 @@ class Engine {
     std::shared_ptr<struct EngineState> state_;
 };
 
-// What a frame shows.
-struct Display {
-    std::string view = "radiance";  // the picture itself, or another look at the frame; see list_display_views
-    std::optional<float> exposure_ev;  // nullopt: follows the pictures
-    double elapsed_s = 1.0 / 60.0;     // since the last frame: how far an exposure that follows may go
-};
-
-// A look at a frame.
-struct DisplayViewInfo {
-    std::string name;      // "shading normals"
-    std::string sentence;  // what its colours mean
-};
-
-std::vector<DisplayViewInfo> list_display_views();
-
 // One frame. The same scene, moment, frame, seed and settings give the same picture, bit for bit, as long as
 // the frames before it were the same too.
 struct Frame {
@@ -96,25 +80,32 @@ class View {
     int width_px() const;
     int height_px() const;
 
-    // Renders a frame and reads it back.
+    // Renders a frame and reads it back. Error for a display view that there is not.
     Picture render(const Frame& frame);
 
-    // Renders a frame that stays on the device: for windows.
+    // Renders a frame that stays on the device, and makes it ready to be shown: for windows.
     FrameReport draw(const Frame& frame);
 
     // Of the last frame; Error before the first one.
     // Reads the radiance back.
     Picture read() const;
-    // The name of a GL texture, RGBA8, row 0 on top: exposed, tone-mapped, sRGB. Valid until the next frame.
+    // The name of a GL texture, RGBA8, row 0 on top: the frame as its Display says, for the eye (sRGB). Valid
+    // until the next frame.
     unsigned texture() const;
-    // The exposure of that, EV. Waits for the device.
-    float exposure_ev() const;
-    // Draws the texture over the whole of the current draw framebuffer, whose size it is given. Error in a
-    // context of the engine's own, which has no window.
+    // Draws that over the whole of the current draw framebuffer, whose size it is given. Error in a context
+    // of the engine's own, which has no window.
     void present(int framebuffer_width_px, int framebuffer_height_px);
+    // Writes that with 8 bits a channel. The file is written whole or not at all. Error that names it.
+    void write_png(const std::filesystem::path& file) const;
+    // The exposure in EV with which it is shown. Waits for the device.
+    float exposure_ev() const;
 
     // Forgets the last frame, as after a cut.
     void reset_history();
+
+    // Reads the shader files again that have changed. What is wrong with those that do not compile and keep
+    // their old version; empty: nothing.
+    std::string reload_shaders();
 
   private:
     std::unique_ptr<struct ViewState> state_;

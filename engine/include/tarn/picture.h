@@ -13,6 +13,13 @@ namespace tarn::api {
 struct PassTime {
     std::string name;  // "direct/candidates"
     double ms = 0.0;
+    bool traces_rays = false;  // on worker threads
+};
+
+// A decision that the plan of a frame took, and why.
+struct PlanReason {
+    std::string name;    // a define of the shaders: "TARN_TEXTURES"
+    std::string reason;  // "12 texture slots in use"
 };
 
 // The cost of a frame.
@@ -21,8 +28,11 @@ struct FrameReport {
     std::vector<PassTime> passes;  // in the order in which they ran
     std::uint64_t shadow_rays = 0;
     std::uint64_t closest_rays = 0;
+    std::uint64_t triangles_drawn = 0;  // rasterized; the rest is out of sight
+    std::uint64_t triangles_total = 0;
     std::map<std::string, std::uint64_t>
-        counters;  // what was dropped or clamped since the view was made, by name
+        counters;                  // what was dropped or clamped since the view was made, by name
+    std::vector<PlanReason> plan;  // what the shaders were compiled with
 };
 
 struct Picture {

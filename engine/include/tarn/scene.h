@@ -41,6 +41,18 @@ struct Light {
     double range_m = 0.0;                        // point, spot: nothing beyond; 0: unlimited
 };
 
+// How much there is in a scene.
+struct SceneFacts {
+    std::size_t triangles = 0;  // of all instances
+    std::size_t instances = 0;
+    std::size_t materials = 0;
+    std::size_t textures = 0;         // pictures
+    std::size_t punctual_lights = 0;  // without extent
+    std::size_t light_triangles = 0;  // that shine
+    int sky_width_px = 0;             // 0: no sky
+    int sky_height_px = 0;
+};
+
 // Edits and moves take effect with the next frame of any view of the scene. Movable; views keep what they
 // need of it alive.
 class Scene {
@@ -55,6 +67,8 @@ class Scene {
     const std::string& name() const;
     // What holds all triangles at the moment for which the scene was loaded, metres, world space.
     Box bounds() const;
+    // As the last frame drew it.
+    SceneFacts facts() const;
 
     // ---- Cameras, in the file's order. Where the scene moves them they are as of this moment.
     std::size_t camera_count() const;

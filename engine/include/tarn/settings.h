@@ -47,6 +47,13 @@ class Settings {
     // As a user would write it. Error for an unknown name.
     std::string get(const std::string& name) const;
 
+    // The same for widgets: a number as it is, a choice as its place in SettingInfo::choices. Error for an
+    // unknown name, and for what the setting does not accept.
+    void set_number(const std::string& name, double value);
+    double number(const std::string& name) const;
+    // Whether it changes anything beside the others. Error for an unknown name.
+    bool applies(const std::string& name) const;
+
   private:
     friend struct SettingsAccess;
     struct Values;

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "tarn/camera.h"
+#include "tarn/display.h"
 #include "tarn/engine.h"
 #include "tarn/error.h"
 #include "tarn/picture.h"

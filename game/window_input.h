@@ -3,9 +3,9 @@
 
 #include <set>
 
-#include "platform/window.h"
+#include "window.h"
 
-namespace tarn {
+namespace game {
 
 class WindowInput {
   public:
@@ -25,12 +25,10 @@ class WindowInput {
     // Hides the mouse pointer and lets it move without end, or gives it back.
     void capture_mouse(bool captured);
 
-    bool is_minimized() const;
-
   private:
     Window& window_;
     std::set<int> pressed_;
     bool captured_ = false;
 };
 
-}  // namespace tarn
+}  // namespace game

@@ -1,23 +1,22 @@
 // The viewer's panel: every setting, and what the last frames cost, counted and decided.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "frame/timings.h"
-#include "passes/display.h"
-#include "plan/frame_plan.h"
-#include "settings/settings.h"
+#include "recent_timings.h"
+#include "tarn_names.h"
 
-namespace tarn {
+namespace game {
 
 // What the panel changes.
 struct ViewerState {
-    RenderSettings settings;
-    DisplayView view = DisplayView::RADIANCE;
+    Settings settings;
+    std::string view;  // a name out of ViewerFacts::views
     bool auto_exposure = true;
     float exposure_ev = 0.0f;  // automatic: follows the picture
     std::uint32_t seed = 0;
@@ -32,23 +31,21 @@ struct ViewerState {
 
 // What the panel shows.
 struct ViewerFacts {
+    std::vector<SettingInfo> settings = Settings::list();
+    std::vector<DisplayViewInfo> views = Display::list_views();
     std::string scene_name;
     std::vector<std::pair<std::string, std::string>> scene_facts;  // "triangles", "74512"
     std::vector<std::string> camera_names;
     std::optional<std::size_t> followed_camera;  // none: flying freely
-    glm::dvec3 camera_position_ws{0.0};
+    Vec3 camera_position_ws;
     double animation_duration_s = 0.0;  // 0: nothing moves
     int width_px = 0;
     int height_px = 0;
     double frames_per_s = 0.0;
-    FrameTimings timings;
-    std::uint64_t shadow_rays = 0;  // of the last frame
-    double rays_per_s = 0.0;        // of all kinds, while they are traced
-    std::uint64_t triangles_drawn = 0;
-    std::uint64_t triangles_total = 0;
-    std::map<std::string, std::uint64_t> counters;
-    const FramePlan* plan = nullptr;
-    std::string message;  // the last screenshot or error
+    FrameReport report;       // of the last frame
+    FrameCost cost;           // medians of the last frames
+    double rays_per_s = 0.0;  // of all kinds, while they are traced
+    std::string message;      // the last screenshot or error
     bool message_is_error = false;
 };
 
@@ -62,4 +59,4 @@ struct PanelActions {
 // Describes the panel and the message to Dear ImGui; call between Overlay::begin() and end().
 PanelActions draw_panel(ViewerState& state, const ViewerFacts& facts);
 
-}  // namespace tarn
+}  // namespace game

@@ -1,14 +1,13 @@
-#include "ui/overlay.h"
+#include "overlay.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_impl_glfw.h>
 #include <imgui_impl_opengl3.h>
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include "core/error.h"
-
-namespace tarn {
+namespace game {
 namespace {
 
 void choose_style(GLFWwindow* handle) {
@@ -33,7 +32,7 @@ Overlay::Overlay(Window& window) : input_(window) {
     choose_style(window.native_handle());
     if (!ImGui_ImplGlfw_InitForOpenGL(window.native_handle(), true) ||
         !ImGui_ImplOpenGL3_Init("#version 450 core")) {
-        throw Error("Dear ImGui {} cannot draw with this OpenGL", ImGui::GetVersion());
+        throw Error(fmt::format("Dear ImGui {} cannot draw with this OpenGL", ImGui::GetVersion()));
     }
 }
 
@@ -63,8 +62,9 @@ void Overlay::read_keys(ViewerInput& input) const {
     const auto axis = [&](int positive, int negative) {
         return double(input_.is_held(positive)) - double(input_.is_held(negative));
     };
-    input.move = {axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q), axis(GLFW_KEY_W, GLFW_KEY_S)};
-    input.fast = input_.is_held(GLFW_KEY_LEFT_SHIFT) || input_.is_held(GLFW_KEY_RIGHT_SHIFT);
+    input.fly.move = {axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q),
+                      axis(GLFW_KEY_W, GLFW_KEY_S)};
+    input.fly.fast = input_.is_held(GLFW_KEY_LEFT_SHIFT) || input_.is_held(GLFW_KEY_RIGHT_SHIFT);
     input.close = input_.was_pressed(GLFW_KEY_ESCAPE);
     input.toggle_panel = input_.was_pressed(GLFW_KEY_TAB) || input_.was_pressed(GLFW_KEY_F1);
     input.reload_shaders = input_.was_pressed(GLFW_KEY_F5);
@@ -77,10 +77,10 @@ void Overlay::read_mouse(ViewerInput& input) {
     // A drag that began outside the panel keeps the mouse, wherever it goes.
     const bool dragging = ImGui::IsMouseDown(ImGuiMouseButton_Right) && !io.WantCaptureMouse;
     // The movement that led to the first frame of a drag happened before the button went down.
-    if (dragging && looking_) input.look_px = {io.MouseDelta.x, io.MouseDelta.y};
-    if (!io.WantCaptureMouse) input.wheel_steps = io.MouseWheel;
+    if (dragging && looking_) input.fly.look_px = {io.MouseDelta.x, io.MouseDelta.y};
+    if (!io.WantCaptureMouse) input.fly.wheel_steps = io.MouseWheel;
     looking_ = dragging;
     input_.capture_mouse(dragging);
 }
 
-}  // namespace tarn
+}  // namespace game

@@ -1,9 +1,9 @@
-#include "ui/window_input.h"
+#include "window_input.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-namespace tarn {
+namespace game {
 
 WindowInput::WindowInput(Window& window) : window_(window) {
     glfwSetWindowUserPointer(window_.native_handle(), this);
@@ -29,9 +29,4 @@ void WindowInput::capture_mouse(bool captured) {
                      captured ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
 }
 
-bool WindowInput::is_minimized() const {
-    return glfwGetWindowAttrib(window_.native_handle(), GLFW_ICONIFIED) == GLFW_TRUE ||
-           window_.framebuffer_size_px() == glm::ivec2(0);
-}
-
-}  // namespace tarn
+}  // namespace game

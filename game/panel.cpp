@@ -1,4 +1,4 @@
-#include "ui/panel.h"
+#include "panel.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -6,10 +6,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 
-#include "ui/setting_widgets.h"
+#include "setting_widgets.h"
 
-namespace tarn {
+namespace game {
 namespace {
 
 constexpr float WIDTH_EM = 25.0f;
@@ -48,20 +49,22 @@ void draw_table(const char* id, const Rows& rows, const ShowValue& show_value) {
 
 void draw_headline(const ViewerFacts& facts) {
     show_text(fmt::format("{}x{}  {:.1f} ms  {:.1f} frames/s", facts.width_px, facts.height_px,
-                          facts.timings.frame_ms, facts.frames_per_s));
+                          facts.cost.frame_ms, facts.frames_per_s));
 }
 
-void draw_view_combo(DisplayView& view) {
-    const auto views = display_views();
-    if (ImGui::BeginCombo("view", views[std::size_t(view)].name)) {
-        for (std::size_t i = 0; i < views.size(); ++i) {
-            if (ImGui::Selectable(views[i].name, i == std::size_t(view))) view = DisplayView(i);
-            add_tooltip(views[i].sentence);
+void draw_view_combo(const std::vector<DisplayViewInfo>& views, std::string& chosen) {
+    const bool open = ImGui::BeginCombo("view", chosen.c_str());
+    if (!open) {
+        for (const DisplayViewInfo& view : views) {
+            if (view.name == chosen) add_tooltip(view.sentence);
         }
-        ImGui::EndCombo();
-    } else {
-        add_tooltip(views[std::size_t(view)].sentence);
+        return;
     }
+    for (const DisplayViewInfo& view : views) {
+        if (ImGui::Selectable(view.name.c_str(), view.name == chosen)) chosen = view.name;
+        add_tooltip(view.sentence);
+    }
+    ImGui::EndCombo();
 }
 
 void draw_resolution_combo(int& percent) {
@@ -75,9 +78,9 @@ void draw_resolution_combo(int& percent) {
     add_tooltip("Width and height of the rendered picture, relative to the window");
 }
 
-void draw_picture_section(ViewerState& state) {
+void draw_picture_section(ViewerState& state, const ViewerFacts& facts) {
     if (!begin_section("Picture")) return;
-    draw_view_combo(state.view);
+    draw_view_combo(facts.views, state.view);
     ImGui::Checkbox("auto", &state.auto_exposure);
     add_tooltip("Exposure that maps the log-average luminance to middle grey");
     ImGui::SameLine();
@@ -102,7 +105,7 @@ void draw_camera_section(ViewerState& state, const ViewerFacts& facts, PanelActi
         ImGui::EndCombo();
     }
     add_tooltip("Go to a camera of the scene, and with it where it is animated");
-    const glm::dvec3& p = facts.camera_position_ws;
+    const Vec3& p = facts.camera_position_ws;
     show_text(fmt::format("at {:.3f}, {:.3f}, {:.3f} m", p.x, p.y, p.z));
     ImGui::SliderFloat("speed", &state.fly_speed_m_s, 1e-3f, 1e3f, "%.3g m/s", ImGuiSliderFlags_Logarithmic);
     add_tooltip(
@@ -122,17 +125,17 @@ void draw_animation_section(ViewerState& state, const ViewerFacts& facts) {
 }
 
 // One row a pass: name, a bar relative to the frame, milliseconds.
-void draw_pass_rows(const FrameTimings& timings) {
+void draw_pass_rows(const FrameCost& cost) {
     if (!ImGui::BeginTable("passes", 2)) return;
     ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthFixed);
     ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthStretch);
     const float height = ImGui::GetFontSize();
-    for (const PassTiming& pass : timings.passes) {
+    for (const PassTime& pass : cost.passes) {
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
         show_text(pass.name);
         ImGui::TableNextColumn();
-        const double share = timings.frame_ms > 0.0 ? pass.ms / timings.frame_ms : 0.0;
+        const double share = cost.frame_ms > 0.0 ? pass.ms / cost.frame_ms : 0.0;
         ImGui::ProgressBar(float(std::clamp(share, 0.0, 1.0)), ImVec2(-1.0f, height),
                            fmt::format("{:.2f} ms", pass.ms).c_str());
     }
@@ -141,14 +144,15 @@ void draw_pass_rows(const FrameTimings& timings) {
 
 void draw_cost_section(const ViewerFacts& facts) {
     if (!begin_section("Cost (median of the last frames)")) return;
-    draw_pass_rows(facts.timings);
-    show_text(fmt::format("{} shadow rays, {:.2f} M rays/s", facts.shadow_rays, facts.rays_per_s * 1e-6));
-    show_text(fmt::format("{} of {} triangles drawn", facts.triangles_drawn, facts.triangles_total));
+    const FrameReport& report = facts.report;
+    draw_pass_rows(facts.cost);
+    show_text(fmt::format("{} shadow rays, {:.2f} M rays/s", report.shadow_rays, facts.rays_per_s * 1e-6));
+    show_text(fmt::format("{} of {} triangles drawn", report.triangles_drawn, report.triangles_total));
 }
 
 void draw_counter_section(const ViewerFacts& facts) {
     if (!begin_section("Counters")) return;
-    draw_table("counters", facts.counters, [](std::uint64_t count) {
+    draw_table("counters", facts.report.counters, [](std::uint64_t count) {
         if (count == 0) {
             show_text("0");
         } else {
@@ -158,9 +162,9 @@ void draw_counter_section(const ViewerFacts& facts) {
 }
 
 void draw_plan_section(const ViewerFacts& facts) {
-    if (facts.plan == nullptr || !begin_section("Plan", false)) return;
-    for (const FeatureReason& entry : facts.plan->feature_reasons) {
-        show_text(entry.define);
+    if (!begin_section("Plan", false)) return;
+    for (const PlanReason& entry : facts.report.plan) {
+        show_text(entry.name);
         ImGui::Indent();
         show_wrapped(entry.reason, QUIET_COLOUR);
         ImGui::Unindent();
@@ -220,8 +224,8 @@ PanelActions draw_panel(ViewerState& state, const ViewerFacts& facts) {
     ImGui::PushItemWidth(-9.0f * ImGui::GetFontSize());
     draw_headline(facts);
     // What is seen comes first: its place does not depend on which settings apply.
-    draw_picture_section(state);
-    if (begin_section("Settings")) draw_settings(state.settings);
+    draw_picture_section(state, facts);
+    if (begin_section("Settings")) draw_settings(facts.settings, state.settings);
     draw_camera_section(state, facts, actions);
     draw_animation_section(state, facts);
     draw_cost_section(facts);
@@ -234,4 +238,4 @@ PanelActions draw_panel(ViewerState& state, const ViewerFacts& facts) {
     return actions;
 }
 
-}  // namespace tarn
+}  // namespace game

@@ -1,23 +1,19 @@
 // Dear ImGui over a window, and the keys and mouse movements that it leaves to the viewer.
 #pragma once
 
-#include <glm/glm.hpp>
+#include "fly_camera.h"
+#include "window.h"
+#include "window_input.h"
 
-#include "platform/window.h"
-#include "ui/window_input.h"
-
-namespace tarn {
+namespace game {
 
 // What a person did since the last frame, outside the panel.
 struct ViewerInput {
-    glm::dvec3 move{0.0};     // right (D, A), up (E, Q), forward (W, S); -1 to 1
-    bool fast = false;        // Shift
-    glm::dvec2 look_px{0.0};  // mouse movement with the right button held: right, down
-    double wheel_steps = 0.0;
-    bool close = false;             // Escape
-    bool toggle_panel = false;      // Tab, F1
-    bool reload_shaders = false;    // F5
-    bool screenshot = false;        // F12
+    FlyInput fly;                 // move: D, A; E, Q; W, S. fast: Shift. look_px: with the right button held
+    bool close = false;           // Escape
+    bool toggle_panel = false;    // Tab, F1
+    bool reload_shaders = false;  // F5
+    bool screenshot = false;      // F12
     bool toggle_animation = false;  // Space
 };
 
@@ -35,8 +31,6 @@ class Overlay {
     // Draws the frame's widgets into the default framebuffer.
     void end();
 
-    bool is_minimized() const { return input_.is_minimized(); }
-
   private:
     void read_keys(ViewerInput& input) const;
     void read_mouse(ViewerInput& input);
@@ -45,4 +39,4 @@ class Overlay {
     bool looking_ = false;
 };
 
-}  // namespace tarn
+}  // namespace game
