@@ -105,6 +105,72 @@ double find_worst_choice(const MaskSize& size, const Ranks& ranks, const Ranks* 
     return worst;
 }
 
+// The first pattern of a flat mask: the texels of the first 96 ranks, which is a tenth in whole blocks of
+// sixteen.
+constexpr int FIRST_COUNT = 96;
+
+// Energies at all texels of a flat mask from those of ranks up to `last`.
+std::vector<double> sum_energies(const Ranks& ranks, const Ranks* first, int last) {
+    std::vector<double> energies(ranks.size(), 0.0);
+    for (int set = 0; set < int(ranks.size()); ++set) {
+        for (int texel = 0; ranks[set] <= last && texel < int(ranks.size()); ++texel)
+            energies[texel] += energy_between(FLAT, first, set, texel);
+    }
+    return energies;
+}
+
+// By how much the ranks of the first pattern miss the tightest cluster among those up to them, at worst.
+double find_worst_first_choice(const Ranks& ranks, const Ranks* first = nullptr) {
+    const std::vector<Texels> texels = list_texels_of_ranks(FLAT, ranks);
+    double worst = 0;
+    for (int rank = 0; rank < FIRST_COUNT; ++rank) {
+        const std::vector<double> energies = sum_energies(ranks, first, rank);
+        std::set<int> met;
+        for (int later = rank + 1; first != nullptr && later % 16 != 0; ++later)
+            met.insert(find_stratum(FLAT, first, texels[later][0]));
+        for (int other = 0; other < rank; ++other) {
+            if (met.count(find_stratum(FLAT, first, texels[other][0]))) continue;
+            worst = std::max(worst, energies[texels[other][0]] - energies[texels[rank][0]]);
+        }
+    }
+    return worst;
+}
+
+// What the texel of the first pattern's tightest cluster would gain by a move to the largest void.
+double find_gain_of_a_move(const Ranks& ranks) {
+    const std::vector<double> energies = sum_energies(ranks, nullptr, FIRST_COUNT - 1);
+    int tightest = -1;
+    for (int texel = 0; texel < int(ranks.size()); ++texel) {
+        if (ranks[texel] >= FIRST_COUNT) continue;
+        if (tightest < 0 || energies[texel] > energies[tightest]) tightest = texel;
+    }
+    double gain = 0;
+    for (int texel = 0; texel < int(ranks.size()); ++texel) {
+        if (ranks[texel] < FIRST_COUNT) continue;
+        const double there = energies[texel] - energy_between(FLAT, nullptr, tightest, texel);
+        gain = std::max(gain, energies[tightest] - 1.0 - there);
+    }
+    return gain;
+}
+
+TEST(VoidAndCluster, TheFirstPatternIsEven) {
+    EXPECT_LT(find_gain_of_a_move(make_blue_noise(FLAT, 5)), TOLERANCE);
+    Ranks random(1024);
+    for (int i = 0; i < 1024; ++i) random[i] = std::uint16_t(i * 7919 % 1024 * 31 % 1021);
+    EXPECT_GT(find_gain_of_a_move(random), 50 * TOLERANCE);
+}
+
+TEST(VoidAndCluster, TheFirstPatternIsTakenApartFromItsTightestClusters) {
+    const Ranks first = make_blue_noise(FLAT, 5), second = make_second_coordinate(FLAT, first, 6);
+    EXPECT_LT(find_worst_first_choice(first), TOLERANCE);
+    EXPECT_LT(find_worst_first_choice(second, &first), TOLERANCE);
+    Ranks reversed = first;
+    for (std::uint16_t& rank : reversed) {
+        if (rank < FIRST_COUNT) rank = std::uint16_t(FIRST_COUNT - 1 - rank);
+    }
+    EXPECT_GT(find_worst_first_choice(reversed), 5 * TOLERANCE);
+}
+
 TEST(VoidAndCluster, EachRankGoesToTheLargestVoid) {
     EXPECT_LT(find_worst_choice(FLAT, make_blue_noise(FLAT, 5)), TOLERANCE);
 }
