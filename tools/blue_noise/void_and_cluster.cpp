@@ -45,7 +45,7 @@ constexpr int DIAMETER = 2 * ENERGY_RADIUS_PX + 1;
 constexpr uint ANY_STRATUM = ~0u;
 
 // What a random number is for.
-enum Purpose : uint { TIE, FIRST_PATTERN, SLICE_ORDER };
+enum Purpose : uint { TIE, FIRST_PATTERN };
 
 int to_weight(double distance, double sigma) {
     return int(std::lround(WEIGHT_ONE * std::exp(-distance * distance / (2.0 * sigma * sigma))));
@@ -72,7 +72,6 @@ class VoidAndCluster {
     int find_tightest_cluster(int slice, uint strata) const;
     int find_largest_void(int slice, uint strata) const;
     void close_stratum(int slice, int texel);
-    int choose_slice(int rank, int turn) const;
     int index(int slice, int texel) const { return slice * area_ + texel; }
     uint random_bits(Purpose purpose, uint a, uint b) const {
         return hash_pcg4d(uvec4(a, b, seed_, purpose)).x;
@@ -136,8 +135,7 @@ Ranks VoidAndCluster::make() {
     even_out_first_pattern();
     rank_first_pattern(ranks);
     for (int rank = first_count_; rank < area_; ++rank) {
-        for (int turn = 0; turn < size_.slices; ++turn) {
-            const int slice = choose_slice(rank, turn);
+        for (int slice = 0; slice < size_.slices; ++slice) {
             const int texel = find_largest_void(slice, open_strata_[slice]);
             change(slice, texel, 1);
             close_stratum(slice, texel);
@@ -181,8 +179,7 @@ void VoidAndCluster::rank_first_pattern(Ranks& ranks) {
     const Set pattern = is_set_;
     const std::vector<int> energies = energies_;
     for (int rank = first_count_ - 1; rank >= 0; --rank) {
-        for (int turn = 0; turn < size_.slices; ++turn) {
-            const int slice = choose_slice(rank, turn);
+        for (int slice = 0; slice < size_.slices; ++slice) {
             const int texel = find_tightest_cluster(slice, open_strata_[slice]);
             change(slice, texel, -1);
             close_stratum(slice, texel);
@@ -250,12 +247,6 @@ int VoidAndCluster::find_largest_void(int slice, uint strata) const {
 void VoidAndCluster::close_stratum(int slice, int texel) {
     open_strata_[slice] &= ~strata_[index(slice, texel)];
     if (open_strata_[slice] == 0u) open_strata_[slice] = all_strata_;
-}
-
-// Which slice is the `turn`-th to take `rank`: all once, and none is always first.
-int VoidAndCluster::choose_slice(int rank, int turn) const {
-    const uint start = random_bits(SLICE_ORDER, uint(rank), 0u) % uint(size_.slices);
-    return (turn + int(start)) % size_.slices;
 }
 
 }  // namespace
