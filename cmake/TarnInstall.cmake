@@ -9,6 +9,7 @@ install(TARGETS tarn_engine EXPORT tarnTargets ARCHIVE DESTINATION ${CMAKE_INSTA
         INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY engine/include/tarn DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY shaders DESTINATION ${TARN_DATA_DIR} PATTERN README.md EXCLUDE)
+install(FILES ${PROJECT_BINARY_DIR}/noise/blue_noise.bin DESTINATION ${TARN_DATA_DIR}/noise)
 install(EXPORT tarnTargets NAMESPACE tarn:: DESTINATION ${TARN_PACKAGE_DIR})
 configure_package_config_file(cmake/tarnConfig.cmake.in ${PROJECT_BINARY_DIR}/tarnConfig.cmake
                               INSTALL_DESTINATION ${TARN_PACKAGE_DIR} PATH_VARS TARN_DATA_DIR)

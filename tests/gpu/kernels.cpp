@@ -109,6 +109,7 @@ TEST_F(Kernels, RandomNumbersAreTheSameBits) {
     expect_same_bits(KERNEL_HASH, random_words);
     expect_same_bits(KERNEL_RANDOM, random_words);
     expect_same_bits(KERNEL_INTEGERS, random_words);
+    expect_same_bits(KERNEL_BLUE_NOISE, random_words);
 }
 
 TEST_F(Kernels, RecordsAndAliasDrawsAreTheSameBits) {

@@ -45,6 +45,7 @@ if (($# > 0)); then check "own_window" "$@" app/build/own_window "$scene" 3; fi
 check "the program from elsewhere" tarn/bin/tarn render cornell --size 32x32 --out program.exr
 check "the linked one" "$BUILD/render_to_exr" "$scene" linked.exr 2
 check "both pictures are the same" cmp picture.exr linked.exr
+check "the noise mask" cmp "$BUILD/noise/blue_noise.bin" tarn/share/tarn/noise/blue_noise.bin
 check "where scenes are looked for" fails_with "$SANDBOX/tarn/share/tarn/content" tarn/bin/tarn info nowhere
 
 # Whether it was the installed shaders that were used, and not those of the checkout.

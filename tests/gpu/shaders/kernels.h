@@ -4,6 +4,7 @@
 
 #include "shared/interface/records.h"
 #include "shared/math/alias_table.h"
+#include "shared/math/blue_noise.h"
 #include "shared/math/brdf.h"
 #include "shared/math/environment.h"
 #include "shared/math/light.h"
@@ -31,6 +32,7 @@ CONSTANT uint KERNEL_SKY_DIRECTION = 13u;
 CONSTANT uint KERNEL_SKY_UV = 14u;
 CONSTANT uint KERNEL_ALIAS = 15u;
 CONSTANT uint KERNEL_FRAME = 16u;
+CONSTANT uint KERNEL_BLUE_NOISE = 17u;
 
 FN uvec4 run_integers(uvec4 a, uvec4 b) {
     RandomKey key;
@@ -135,6 +137,21 @@ FN uvec4 run_alias(uvec4 a, uvec4 b) {
     return uvec4(drawn.index, floatBitsToUint(drawn.pmf), 0u, 0u);
 }
 
+// Stands for the mask.
+FN uint fetch_blue_noise(uint index) {
+    return hash_pcg4d(uvec4(index)).x;
+}
+
+#include "shared/scene/blue_noise.h"
+
+// a: pixel, frame, seed; b: dimension.
+FN uvec4 run_blue_noise(uvec4 a, uvec4 b) {
+    uvec2 pixel = uvec2(a.x, a.y);
+    vec2 numbers = blue_noise2(pixel, a.z, a.w, b.x);
+    return uvec4(blue_noise_texel(blue_noise_shift(a.z, a.w, b.x), pixel, a.z), floatBitsToUint(numbers.x),
+                 floatBitsToUint(numbers.y), floatBitsToUint(blue_noise1(pixel, a.z, a.w, b.x)));
+}
+
 FN uvec4 run_kernel(uint kernel, uvec4 a, uvec4 b, uvec4 c, uvec4 d) {
     RandomKey key;
     key.pixel = a.x;
@@ -157,6 +174,7 @@ FN uvec4 run_kernel(uint kernel, uvec4 a, uvec4 b, uvec4 c, uvec4 d) {
     if (kernel == KERNEL_SKY_DIRECTION) return run_sky_direction(a, b);
     if (kernel == KERNEL_SKY_UV) return pack_row4(vec4(environment_uv(row_xyz(a)), 0.0f, 0.0f));
     if (kernel == KERNEL_ALIAS) return run_alias(a, b);
+    if (kernel == KERNEL_BLUE_NOISE) return run_blue_noise(a, b);
     Frame frame = make_frame(row_xyz(a));
     return pack_row(to_local(frame, row_xyz(b)), 0u);
 }
