@@ -92,6 +92,7 @@ IndirectPlan plan_indirect(const IndirectSettings& settings) {
     plan.bounces = settings.bounces;
     plan.candidate_count = settings.candidates;
     plan.sampling = settings.sampling;
+    plan.noise = settings.noise;
     plan.target_weights = glm::vec3(LUMINANCE_WEIGHTS);
     plan.reuse = plan_reuse(settings.reuse, settings.uses_restir(), DebugView::NONE);
     plan.reuse.tests_fresh_samples = false;

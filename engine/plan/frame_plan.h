@@ -50,6 +50,7 @@ struct IndirectPlan {
     int bounces = 1;
     int candidate_count = 1;
     IndirectSampling sampling = IndirectSampling::BRDF;
+    NoiseKind noise = NoiseKind::WHITE;
     glm::vec3 target_weights{0.0f};
     ReusePlan reuse;
 };

@@ -140,11 +140,18 @@ std::vector<IndirectSpatialVariant> IndirectSpatialVariant::all() {
 }
 
 Defines IndirectRaysVariant::defines() const {
-    return define_of(sampling);
+    Defines result = define_of(sampling);
+    if (noise == NoiseKind::BLUE) result.emplace_back("TARN_BLUE_NOISE");
+    return result;
 }
 
 std::vector<IndirectRaysVariant> IndirectRaysVariant::all() {
-    return {{IndirectSampling::UNIFORM}, {IndirectSampling::COSINE}, {IndirectSampling::BRDF}};
+    std::vector<IndirectRaysVariant> result;
+    for (const IndirectSampling sampling :
+         {IndirectSampling::UNIFORM, IndirectSampling::COSINE, IndirectSampling::BRDF}) {
+        for (const NoiseKind noise : {NoiseKind::WHITE, NoiseKind::BLUE}) result.push_back({sampling, noise});
+    }
+    return result;
 }
 
 Defines PathVerticesVariant::defines() const {
@@ -166,8 +173,9 @@ Defines PathSamplesVariant::defines() const {
 
 std::vector<PathSamplesVariant> PathSamplesVariant::all() {
     std::vector<PathSamplesVariant> result;
-    for (const IndirectRaysVariant& rays : IndirectRaysVariant::all()) {
-        for (const bool shades : {false, true}) result.push_back({rays.sampling, shades});
+    for (const IndirectSampling sampling :
+         {IndirectSampling::UNIFORM, IndirectSampling::COSINE, IndirectSampling::BRDF}) {
+        for (const bool shades : {false, true}) result.push_back({sampling, shades});
     }
     return result;
 }

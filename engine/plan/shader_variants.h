@@ -110,6 +110,7 @@ struct IndirectRaysVariant {
     static constexpr const char* PATH = "indirect/rays";
     static constexpr bool IS_OF_SCENE = true;
     IndirectSampling sampling = IndirectSampling::BRDF;
+    NoiseKind noise = NoiseKind::WHITE;
     Defines defines() const;
     static std::vector<IndirectRaysVariant> all();
 };

@@ -110,7 +110,7 @@ ReflectedLight Renderer::light_directly(const FrameContext& frame, const GBuffer
 
 ReflectedLight Renderer::light_indirectly(const FrameContext& frame, const GBuffer& gbuffer) {
     const SampleSlot slot{0, 0, frame.plan.indirect.target_weights, {frame.frame, frame.seed, RAY_SHADOW}};
-    const Paths paths = trace_paths(frame, gbuffer, slot);
+    const Paths paths = trace_paths(frame, gbuffer, slot, find_blue_noise());
     if (!frame.plan.indirect.keeps_samples) return finish_light(frame, gbuffer, slot, paths);
     return reuse_paths(frame, gbuffer, slot, finish_samples(frame, gbuffer, slot, paths));
 }

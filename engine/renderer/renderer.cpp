@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "noise/blue_noise.h"
 #include "shared/interface/frame_block.h"
 #include "shared/math/random.h"
 
@@ -76,6 +77,12 @@ void Renderer::fit_light_tree() {
     gpu_light_tree_.update(light_tree_);
 }
 
+const RowBuffer* Renderer::find_blue_noise() {
+    if (plan_.indirect.noise != NoiseKind::BLUE) return nullptr;
+    if (!blue_noise_) blue_noise_.emplace("noise/blue", load_blue_noise().texels, GL_R32UI);
+    return &blue_noise_->rows();
+}
+
 bool Renderer::has_moved(const CameraRecord& camera) const {
     return gpu_scene_.is_changing() || !is_same_view(camera, history_.camera);
 }
@@ -114,9 +121,9 @@ FrameOutput Renderer::render(const FrameInput& input) {
     gpu_scene_.bind(recorder_);
 
     RayCounts rays;
-    FrameContext frame{recorder_, programs_,      tracer_,        counters_, rays,
-                       plan_,     input.settings, scene_defines_, size_px_,
-                       input.output_px.value_or(size_px_)};
+    FrameContext frame{
+        recorder_, programs_,      tracer_,        counters_, rays,
+        plan_,     input.settings, scene_defines_, size_px_,  input.output_px.value_or(size_px_)};
     frame.jitter_px = input.jitter_px;
     frame.frame = input.frame;
     frame.seed = input.seed;
@@ -132,7 +139,7 @@ FrameOutput Renderer::render(const FrameInput& input) {
     history_.camera = input.camera;
     history_.jitter_px = input.jitter_px;
     history_.rays = PreviousRays{tracer_.geometry_revision(), {input.frame, input.seed, RAY_SHADOW}};
-    return {*radiance_,  values.display, values.gbuffer, timings,
+    return {*radiance_,  values.display, values.gbuffer,       timings,
             rays.shadow, rays.closest,   gbuffer_.statistics()};
 }
 

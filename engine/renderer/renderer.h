@@ -103,6 +103,7 @@ class Renderer {
     Picture show(const FrameContext& frame, const DisplayInput& input, const Picture& radiance,
                  const GBuffer& gbuffer);
     void fit_light_tree();
+    const RowBuffer* find_blue_noise();
     void upload_frame_block(const FrameInput& input);
     bool has_moved(const CameraRecord& camera) const;
 
@@ -120,6 +121,7 @@ class Renderer {
     GpuScene gpu_scene_;
     LightTree light_tree_;  // once settings draw from it
     GpuLightTree gpu_light_tree_;
+    std::optional<Table> blue_noise_;  // once settings draw from it
     FrameRecorder recorder_;
     Buffer frame_block_;
     Buffer counters_;

@@ -14,9 +14,13 @@ enum class IndirectMode {
 // How the first direction of a path is drawn.
 enum class IndirectSampling { UNIFORM, COSINE, BRDF };
 
+// Where the random numbers of that direction come from.
+enum class NoiseKind { WHITE, BLUE };
+
 struct IndirectSettings {
     IndirectMode mode = IndirectMode::OFF;
     IndirectSampling sampling = IndirectSampling::BRDF;
+    NoiseKind noise = NoiseKind::WHITE;
     int bounces = 1;     // surfaces that light meets before the one that is seen
     int candidates = 4;  // light candidates at each of them
     ReuseSettings reuse;

@@ -165,6 +165,11 @@ void add_indirect_rows(std::vector<Setting>& table) {
         .choose("indirect-sampling",
                 "How the first direction of a path is drawn: evenly, by the cosine or by the BRDF",
                 &S::sampling, {"uniform", "cosine", "brdf"})
+        .choose(
+            "noise",
+            "Random numbers of that direction: white, or blue over pixels and frames, which filters remove "
+            "better",
+            &S::noise, {"white", "blue"})
         .number("indirect-candidates", "", "Light candidates at each surface that a path meets",
                 &S::candidates, 1, 64);
 }

@@ -1,4 +1,4 @@
-// A scene, a view of it, and the reference whose mean every unbiased estimate of its direct light must meet.
+// A scene, a view of it, and the reference whose mean every unbiased estimate of its light must meet.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -26,6 +26,7 @@ class DirectLightCase {
   public:
     static std::filesystem::path file_of(const std::string& name) {
         if (name == "VeachMIS") return shared_file("VeachMIS/veach_mis.gltf");
+        if (name == "CornellBox-bevy") return shared_file("CornellBox-bevy/CornellBox.glb");
         if (name == "CyberpunkManyLights") return shared_file("CyberpunkManyLights/cyberpunk.gltf");
         return content_file(name);
     }
@@ -34,13 +35,15 @@ class DirectLightCase {
     static int tile_px(const std::string& name) { return name == "cornell" ? 27 : 16; }
 
     // Needs a current GL context. `draws_per_pixel`: light candidates that the test will draw in all.
-    DirectLightCase(const std::string& name, double draws_per_pixel, std::uint64_t reference_spp = 4096)
+    // `bounces`: of the reference; 1 is direct light.
+    DirectLightCase(const std::string& name, double draws_per_pixel, std::uint64_t reference_spp = 4096,
+                    int bounces = 1)
         : name_(name), scene_(load_test_scene(file_of(name))) {
         const double aspect = double(WIDTH_PX) / HEIGHT_PX;
         // Of the box the camera sees nothing but the inside: no tile is dark.
         camera_ = name == "cornell" ? look_at(scene_->world, {0.0, 0.2, 0.5}, {0.0, 0.19, -0.3}, 28.0, aspect)
                                     : first_camera(*scene_, aspect);
-        render_reference_image(reference_spp);
+        render_reference_image(reference_spp, bounces);
         left_out_ = find_silhouettes();
         // The one scene with seldom drawn lights at arm's length of what they light.
         if (name == "lantern_court") left_out_.merge(find_rare_events(draws_per_pixel));
@@ -67,12 +70,12 @@ class DirectLightCase {
     }
 
   private:
-    void render_reference_image(std::uint64_t spp) {
+    void render_reference_image(std::uint64_t spp, int bounces) {
         ReferenceSettings settings;
         settings.width = WIDTH_PX;
         settings.height = HEIGHT_PX;
         settings.camera = camera_;
-        settings.direct_only = true;
+        settings.bounces = bounces;
         settings.spp = spp;
         settings.seed = 7;
         const ReferenceResult reference = render_reference(scene_->world, *scene_->tracer, settings);

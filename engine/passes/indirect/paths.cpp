@@ -20,13 +20,14 @@ IndirectConstants constants_for(const FrameContext& frame, const SampleSlot& slo
     return constants;
 }
 
-Rows write_first_rays(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot) {
+Rows write_first_rays(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,
+                      const RowBuffer* blue_noise) {
     const Rows rays = frame.take_pixel_rows("indirect/rays", RAY_ROWS, BufferUse::SHARED);
+    const IndirectRaysVariant variant{frame.plan.indirect.sampling, frame.plan.indirect.noise};
     PassRecorder pass = frame.pass("indirect/rays");
-    read_gbuffer(pass, gbuffer)
-        .constants(constants_for(frame, slot, 0))
-        .write(0, rays)
-        .dispatch(frame.compute(IndirectRaysVariant{frame.plan.indirect.sampling}), frame.size_px);
+    read_gbuffer(pass, gbuffer).constants(constants_for(frame, slot, 0)).write(0, rays);
+    if (blue_noise != nullptr) pass.read_table(UNIT_PASS_A, *blue_noise);
+    pass.dispatch(frame.compute(variant), frame.size_px);
     return rays;
 }
 
@@ -68,10 +69,11 @@ PassRecorder& read_paths(PassRecorder& pass, const FrameContext& frame, const GB
 
 }  // namespace
 
-Paths trace_paths(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot) {
+Paths trace_paths(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,
+                  const RowBuffer* blue_noise) {
     const std::size_t pixels = frame.pixel_count();
     Paths paths;
-    Rows rays = write_first_rays(frame, gbuffer, slot);
+    Rows rays = write_first_rays(frame, gbuffer, slot, blue_noise);
     for (int bounce = 0; bounce < frame.plan.indirect.bounces; ++bounce) {
         CoverageKey key = slot.shadow_key;
         if (bounce > 0) key.ray = RAY_BOUNCE + std::uint32_t(bounce);

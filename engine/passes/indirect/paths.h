@@ -13,9 +13,11 @@ struct Paths {
     Rows answers;
 };
 
-// Traces `frame.plan.indirect.bounces` surfaces far. Rays of the first leg meet partly covered surfaces by
-// `slot.shadow_key`, as the rays that later test the samples do: what one has seen the other sees.
-Paths trace_paths(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot);
+// `blue_noise`: the mask, where the plan asks for it. Traces `frame.plan.indirect.bounces` surfaces far. Rays
+// of the first leg meet partly covered surfaces by `slot.shadow_key`, as the rays that later test the samples
+// do: what one has seen the other sees.
+Paths trace_paths(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,
+                  const RowBuffer* blue_noise);
 
 // A fresh sample of each path.
 Samples finish_samples(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,

@@ -119,6 +119,9 @@ void main() {
 #ifdef TARN_FIRST_VERTEX
             keep_place(s, hit, r, light);
 #else
+#ifdef TARN_PLANT_COUNT_EMISSION
+            s.further += s.throughput * surface.emission;
+#endif
             s.waiting = s.throughput * light.contribution_weight *
                         join_parts(r.point.material, reflect_at(r, light.incident));
 #endif

@@ -1,0 +1,176 @@
+// Indirect light meets the reference with as many bounces: paths as they are, and path samples reused over
+// time and neighbours in frame 1, 16 and 64 and under a moving camera. Mistakes of the reconnection are
+// found.
+#include <map>
+
+#include "direct_light_case.h"
+
+namespace tarn::test {
+namespace {
+
+constexpr int SEEDS = 24;
+constexpr int FIRST_FRAME_SEEDS = 96;
+constexpr int MOVING_FRAMES = 12;
+constexpr std::uint64_t REFERENCE_SPP = 4096;
+// What a test must be able to find in a tile, nine times in ten.
+constexpr double DETECTABLE = 0.03;
+
+RenderSettings make_settings(IndirectMode mode, int bounces = 1) {
+    RenderSettings settings;
+    settings.direct.mode = DirectMode::RIS;
+    settings.direct.candidates = 16;
+    settings.indirect.mode = mode;
+    settings.indirect.bounces = bounces;
+    settings.indirect.reuse.mis_visibility = true;
+    settings.indirect.reuse.radius_px = 10.0;  // of a small picture
+    return settings;
+}
+
+RenderSettings unbiased(Mis mis, int bounces = 1) {
+    RenderSettings settings = make_settings(IndirectMode::RESTIR, bounces);
+    settings.indirect.reuse.mis = mis;
+    return settings;
+}
+
+class Indirect : public OnContext<> {
+  protected:
+    static void TearDownTestSuite() {
+        cases_.clear();
+        OnContext::TearDownTestSuite();
+    }
+
+    // The box, with the light of so many surfaces before the one that is seen.
+    static DirectLightCase& find_case(int bounces) {
+        std::unique_ptr<DirectLightCase>& found = cases_[bounces];
+        if (!found) found = std::make_unique<DirectLightCase>("cornell", 1.0, REFERENCE_SPP, bounces + 1);
+        return *found;
+    }
+
+    static CameraRecord move_camera(DirectLightCase& box, int frames_before) {
+        CameraRecord camera = box.camera();
+        const float step = 0.002f * float(glm::length(box.scene().world.bounds.extent()));
+        camera.position -= (glm::normalize(camera.right) + camera.forward) * (step * float(frames_before));
+        return camera;
+    }
+
+    // Frame `frame`, counted from 0, of `seeds` runs.
+    static TileTest run(const RenderSettings& settings, const std::string& what, int frame, int seeds,
+                        const std::vector<std::string>& planted = {}, bool moves = false) {
+        DirectLightCase& box = find_case(settings.indirect.bounces);
+        Renderer renderer(box.scene().world, *box.scene().tracer, WIDTH_PX, HEIGHT_PX, planted);
+        FrameInput input;
+        input.settings = settings;
+        input.camera = box.camera();
+        TileSamples samples(WIDTH_PX, HEIGHT_PX, DirectLightCase::tile_px("cornell"));
+        for (int seed = 0; seed < seeds; ++seed) {
+            input.seed = std::uint32_t(seed) + 8000u;
+            renderer.reset_history();
+            for (int i = 0; i <= frame; ++i) {
+                input.frame = std::uint32_t(i);
+                if (moves) input.camera = move_camera(box, frame - i);
+                const FrameOutput output = renderer.render(input);
+                if (i < frame) continue;
+                Image image = renderer.read_radiance(output.radiance);
+                box.clear_left_out(image);
+                samples.add(image);
+            }
+        }
+        if (planted.empty()) expect_silence(renderer);
+        return box.test(samples, fmt::format("{}, frame {}", what, frame + 1));
+    }
+
+    static void expect_silence(const Renderer& renderer) {
+        for (const auto& [name, value] : renderer.read_counters()) EXPECT_EQ(value, 0u) << name;
+    }
+
+    static void expect_pass(const TileTest& test, const std::string& what) {
+        EXPECT_TRUE(test.passes) << what;
+        EXPECT_LE(test.detectable_bias, DETECTABLE) << what;
+    }
+
+    static inline std::map<int, std::unique_ptr<DirectLightCase>> cases_;
+};
+
+TEST_F(Indirect, PathsHaveTheReferencesMeanHoweverTheyAreDrawn) {
+    for (const IndirectSampling sampling :
+         {IndirectSampling::UNIFORM, IndirectSampling::COSINE, IndirectSampling::BRDF}) {
+        for (const NoiseKind noise : {NoiseKind::WHITE, NoiseKind::BLUE}) {
+            RenderSettings settings = make_settings(IndirectMode::PATH);
+            settings.indirect.sampling = sampling;
+            settings.indirect.noise = noise;
+            const std::string what = fmt::format("path, sampling {}, noise {}", int(sampling), int(noise));
+            expect_pass(run(settings, what, 0, FIRST_FRAME_SEEDS), what);
+        }
+    }
+}
+
+TEST_F(Indirect, PathsOfSeveralBouncesHaveTheReferencesMean) {
+    for (const int bounces : {2, 4}) {
+        const std::string what = fmt::format("path, {} bounces", bounces);
+        expect_pass(run(make_settings(IndirectMode::PATH, bounces), what, 0, FIRST_FRAME_SEEDS), what);
+    }
+}
+
+TEST_F(Indirect, ReusedSamplesHaveTheReferencesMeanWhateverTheWeights) {
+    for (const Mis mis : {Mis::ONE_OVER_Z, Mis::BALANCE, Mis::PAIRWISE}) {
+        const std::string what = fmt::format("restir, mis {}", int(mis));
+        expect_pass(run(unbiased(mis), what, 0, FIRST_FRAME_SEEDS), what);
+        expect_pass(run(unbiased(mis), what, 15, mis == Mis::ONE_OVER_Z ? 2 * SEEDS : SEEDS), what);
+    }
+}
+
+TEST_F(Indirect, ReusedSamplesKeepTheReferencesMeanForManyFrames) {
+    expect_pass(run(unbiased(Mis::PAIRWISE), "restir, pairwise", 63, SEEDS), "pairwise");
+}
+
+TEST_F(Indirect, AllSamplesOfAStepTogetherHaveTheReferencesMean) {
+    RenderSettings settings = unbiased(Mis::BALANCE);
+    settings.indirect.reuse.shade = SampleShading::ALL;
+    expect_pass(run(settings, "restir, shade all", 7, SEEDS), "shade all");
+}
+
+TEST_F(Indirect, ReusedSamplesOfSeveralBouncesHaveTheReferencesMean) {
+    for (const int bounces : {2, 4}) {
+        const std::string what = fmt::format("restir, {} bounces", bounces);
+        expect_pass(run(unbiased(Mis::PAIRWISE, bounces), what, 15, SEEDS), what);
+    }
+}
+
+TEST_F(Indirect, AMovingCameraKeepsTheReferencesMean) {
+    expect_pass(run(unbiased(Mis::PAIRWISE), "restir, moving", MOVING_FRAMES - 1, 2 * SEEDS, {}, true),
+                "moving");
+}
+
+TEST_F(Indirect, MisWeightsSumToOneInEveryPixel) {
+    DirectLightCase& box = find_case(1);
+    for (const Mis mis : {Mis::BALANCE, Mis::PAIRWISE}) {
+        Renderer renderer(box.scene().world, *box.scene().tracer, WIDTH_PX, HEIGHT_PX, {"TARN_CHECK_MIS"});
+        FrameInput input;
+        input.settings = unbiased(mis);
+        for (input.frame = 0; input.frame < 3; ++input.frame) {
+            input.camera = move_camera(box, 3 - int(input.frame));
+            renderer.render(input);
+        }
+        EXPECT_EQ(renderer.read_counters().at("mis_sums"), 0u) << "mis " << int(mis);
+    }
+}
+
+// ---- Planted bugs
+
+TEST_F(Indirect, MistakesOfTheReconnectionAreFound) {
+    for (const char* bug : {"TARN_PLANT_DROP_RECONNECTION_JACOBIAN", "TARN_PLANT_CLAMP_RECONNECTION_JACOBIAN",
+                            "TARN_PLANT_TARGET_AT_NEIGHBOUR"}) {
+        for (const Mis mis : {Mis::BALANCE, Mis::PAIRWISE}) {
+            const TileTest test = run(unbiased(mis), fmt::format("{} {}", bug, int(mis)), 7, SEEDS, {bug});
+            EXPECT_FALSE(test.passes) << bug << " with mis " << int(mis);
+        }
+    }
+}
+
+TEST_F(Indirect, EmissionThatCountsTwiceIsFound) {
+    const char* bug = "TARN_PLANT_COUNT_EMISSION";
+    EXPECT_FALSE(run(make_settings(IndirectMode::PATH, 2), bug, 0, FIRST_FRAME_SEEDS, {bug}).passes);
+}
+
+}  // namespace
+}  // namespace tarn::test
