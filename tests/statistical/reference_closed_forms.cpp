@@ -284,8 +284,11 @@ double integrate_reflectance(const Material& material, double angle_deg) {
     const double alpha = double(material.roughness) * material.roughness;
     const glm::dvec3 view = test::view_at(angle_deg);
     return test::integrate_hemisphere(
-        [&](const glm::dvec3& l) { return test::oracle_brdf(albedo, f0, 1.0, alpha, view, l) * l.z; }, view,
-        alpha, 100'000);
+        [&](const glm::dvec3& l) {
+            return test::oracle_brdf(albedo, f0, 1.0, alpha, view, l, test::shipped_albedos(alpha, view, l)) *
+                   l.z;
+        },
+        view, alpha, 100'000);
 }
 
 // Lamps as bright as the sky that they hide change nothing; but how often each of the two is drawn, and what

@@ -24,15 +24,33 @@ struct Surface {
 };
 
 // Reflected radiance for one incident sample: BRDF * cosine * value. Divide by the sample's pdf. Light from
-// behind the true surface reflects nothing, whatever the shading normal says.
-FN vec3 reflect_light(ShadingPoint p, Frame frame, vec3 view_local, IncidentLight incident) {
-    if (dot(p.geometric_normal, incident.direction) <= 0.0f) return vec3(0.0f);
+// behind the true surface reflects nothing, whatever the shading normal says. `diffuse` is demodulated: times
+// the albedo and plus `specular` it is the whole.
+FN BrdfValue reflect_light_parts(ShadingPoint p, Frame frame, BrdfView prepared, IncidentLight incident) {
     vec3 light_local = to_local(frame, incident.direction);
+    vec3 arriving = incident.value * max(light_local.z, 0.0f);
 #ifdef TARN_PLANT_DROP_COSINE
-    return evaluate_brdf(p.material, view_local, light_local) * incident.value;
-#else
-    return evaluate_brdf(p.material, view_local, light_local) * incident.value * max(light_local.z, 0.0f);
+    arriving = incident.value;
 #endif
+    if (dot(p.geometric_normal, incident.direction) <= 0.0f) arriving = vec3(0.0f);
+    BrdfValue reflected = evaluate_brdf_parts(p.material, prepared, light_local);
+    reflected.diffuse *= arriving;
+    reflected.specular *= arriving;
+    return reflected;
+}
+
+FN BrdfValue reflect_light_parts(ShadingPoint p, Frame frame, vec3 view_local, IncidentLight incident) {
+    return reflect_light_parts(p, frame, prepare_brdf(p.material, view_local), incident);
+}
+
+FN vec3 reflect_light(ShadingPoint p, Frame frame, BrdfView prepared, IncidentLight incident) {
+    BrdfValue reflected = reflect_light_parts(p, frame, prepared, incident);
+    return p.material.diffuse_albedo * reflected.diffuse + reflected.specular;
+}
+
+// The same for a single sample.
+FN vec3 reflect_light(ShadingPoint p, Frame frame, vec3 view_local, IncidentLight incident) {
+    return reflect_light(p, frame, prepare_brdf(p.material, view_local), incident);
 }
 
 // The resampling target (p-hat): BRDF * Le * G without visibility, its channels weighed by `weights`: those
