@@ -30,6 +30,11 @@ TEST(BrdfFurnace, WhiteLambertReflectsAllLight) {
     }
 }
 
+// A narrow layer's second lobe changes fast at grazing angles, where few points of the lattice lie.
+int choose_point_count(double alpha) {
+    return alpha < 0.1 ? 20'000 : 4000;
+}
+
 // ---- White surfaces
 // -------------------------------------------------------------------------------------------------------
 
@@ -110,7 +115,7 @@ void find_brightest_view(const Brdf& brdf, double f0, double weight, double meta
         for (const double angle : {0.0, 30.0, 60.0, 75.0, 85.0, 89.0, 89.9, 89.99}) {
             if (!is_resolved(alpha, angle)) continue;
             const SurfaceMaterial m = white_material(f0, weight, metallic, alpha);
-            const double albedo = directional_albedo(brdf, m, view_at(angle), 4000);
+            const double albedo = directional_albedo(brdf, m, view_at(angle), choose_point_count(alpha));
             if (albedo > brightest.albedo) brightest = {albedo, alpha, f0, weight, metallic, angle};
         }
     }
@@ -141,11 +146,11 @@ TEST(BrdfFurnace, NoRandomMaterialReflectsMoreThanArrives) {
     for (int i = 0; i < 1000; ++i) {
         const double f0 = draws.uniform(), roughness = draws.uniform();
         // Half of them white: the brightest.
+        const double albedo = i % 2 == 0 ? 1.0 : draws.uniform(), f90 = draws.uniform(f0, 1.0);
         const SurfaceMaterial m =
-            make_material(i % 2 == 0 ? 1.0 : draws.uniform(), f0, draws.uniform(f0, 1.0),
-                          std::max(roughness * roughness, double(MIN_ALPHA)));
+            make_material(albedo, f0, f90, std::max(roughness * roughness, double(MIN_ALPHA)));
         const double angle = draws.uniform(0.0, 89.5);
-        EXPECT_LE(directional_albedo(shipped_brdf, m, view_at(angle), 4000), MOST)
+        EXPECT_LE(directional_albedo(shipped_brdf, m, view_at(angle), choose_point_count(m.alpha)), MOST)
             << "alpha " << m.alpha << ", f0 " << f0 << ", f90 " << m.f90 << ", " << angle << " degrees";
     }
 }

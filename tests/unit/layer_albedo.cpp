@@ -137,8 +137,8 @@ TEST(LayerAlbedo, TheBrdfEqualsItsTwinWithAlbedosByQuadrature) {
     for (const double alpha : {0.1, 0.3, 0.6, 1.0}) {
         const LayerOracle layer(alpha, 4000);
         for (int i = 0; i < 2000; ++i) {
-            const double f0 = draws.uniform(0.0, 0.9);
-            const SurfaceMaterial m = make_material(draws.uniform(), f0, draws.uniform(f0, 1.0), alpha);
+            const double f0 = draws.uniform(0.0, 0.9), f90 = draws.uniform(f0, 1.0);
+            const SurfaceMaterial m = make_material(draws.uniform(), f0, f90, alpha);
             const vec3 v = sample_cosine_hemisphere(draws.uniform_vec2());
             const vec3 l = sample_cosine_hemisphere(draws.uniform_vec2());
             if (v.z < 0.02f || l.z < 0.02f) continue;

@@ -39,7 +39,7 @@ CONSTANT float MIN_ALPHA = 1e-3f;
 // viewer.
 CONSTANT float MIN_VIEW_COSINE = 1e-4f;
 // Below this mean transmission the base is next to nothing and no longer made whole.
-CONSTANT float LEAST_TRANSMISSION = 1e-4f;
+CONSTANT float LEAST_TRANSMISSION = 1e-6f;
 
 FN vec3 fresnel_schlick(vec3 f0, float f90, float cosine) {
     float m = clamp(1.0f - cosine, 0.0f, 1.0f);
