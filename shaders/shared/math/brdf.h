@@ -1,21 +1,23 @@
 // The glTF metallic-roughness BRDF: a diffuse base under a GGX layer (height-correlated Smith), in local
-// space (+Z is the shading normal). It keeps the energy: a white surface reflects all light, whatever its
-// roughness.
+// space (+Z is the shading normal). It keeps the energy: a white dielectric or metal reflects all light.
 //
-// Source: Khronos glTF 2.0 specification, appendix B. Two departures:
-// * Light that the layer's facets throw at each other is not lost. It leaves as a second lobe, F_ms (1 -
-// E(v))
-//   (1 - E(l)) / (pi (1 - E_avg)) with F_ms = F_avg^2 E_avg / (1 - F_avg (1 - E_avg)) (Kulla and Conty,
-//   "Revisiting Physically Based Shading at Imageworks", 2017; F_ms as in Turquin, "Practical Multiple
-//   Scattering Compensation for Microfacet Models", 2019). Turquin's own scaling of the layer costs less but
-//   is not reciprocal.
-// * The base gets what the layer lets through in both directions: albedo (1 - R(v)) (1 - R(l)) / (pi (1 -
-// R_avg)),
-//   where R is the directional albedo of the layer with both lobes (Kelemen and Szirmay-Kalos, "A Microfacet
-//   Based Coupled Specular-Matte BRDF Model", 2001). The specification's 1 - F(v.h) reflects up to 1.8 times
-//   the light that arrives, and Shirley's (1 - F(n.v)) (1 - F(n.l)) loses a fifth of it at grazing angles.
+// Source: Khronos glTF 2.0 specification, appendix B, with two departures. E is the layer's directional
+// albedo were its Fresnel term 1, R its true one with both lobes, "avg" a mean over the hemisphere.
 //
-// All is reciprocal. In a white furnace a white surface reflects 0.99 to 1.001 (tests/unit/brdf_furnace.cpp).
+// Light that leaves the layer after two and more bounces is a second lobe (Kulla and Conty, "Revisiting
+// Physically Based Shading at Imageworks", 2017), where each bounce costs F_avg:
+//     F_ms (1 - E(v)) (1 - E(l)) / (pi (1 - E_avg)),    F_ms = F_avg^2 E_avg / (1 - F_avg (1 - E_avg))
+// To scale the layer by the view's albedo instead (Turquin, "Practical Multiple Scattering Compensation for
+// Microfacet Models", 2019) would be cheaper, but not reciprocal.
+//
+// The base gets what the layer lets through in both directions (Kelemen and Szirmay-Kalos, "A Microfacet
+// Based Coupled Specular-Matte BRDF Model", 2001):
+//     albedo (1 - R(v)) (1 - R(l)) / (pi (1 - R_avg))
+// The specification's 1 - F(v.h) reflects up to 1.8 times the light that arrives at grazing angles;
+// (1 - F(n.v)) (1 - F(n.l)) (Shirley et al. 1997) loses more than a quarter of it.
+//
+// In a white furnace white surfaces reflect 0.99 to 1.001 up to 85 degrees, and nothing reflects more
+// (tests/unit/brdf_furnace.cpp).
 #pragma once
 
 #include "shared/dialect.h"
@@ -111,11 +113,11 @@ FN vec3 mean_multiple_fresnel(SurfaceMaterial m, float mean_loss) {
 FN float choose_layer_probability(SurfaceMaterial m, BrdfView prepared, LayerAlbedo a, vec3 transmitted) {
     float layer = luminance(m.f0 * (1.0f - a.loss - a.fresnel) + vec3(m.f90 * a.fresnel));
     float rest = luminance(m.diffuse_albedo * transmitted + prepared.multiple_fresnel * a.loss);
-    if (layer <= 0.0f) return 0.0f;
+    if (!SCENE_HAS_SPECULAR || layer <= 0.0f) return 0.0f;
     return max(layer / (layer + rest), 0.1f);
 }
 
-// `view` is unit and points away from the surface.
+// For a unit `view` that points away from the surface.
 FN BrdfView prepare_brdf(SurfaceMaterial m, vec3 view) {
     BrdfView prepared;
     prepared.view = clamp_view(view);
@@ -160,7 +162,7 @@ FN vec3 evaluate_brdf(SurfaceMaterial m, vec3 view, vec3 light) {
     return m.diffuse_albedo * value.diffuse + value.specular;
 }
 
-// Probability of sampling the GGX layer rather than the cosine.
+// Probability with which sample_brdf samples the GGX layer rather than the cosine.
 FN float layer_probability(SurfaceMaterial m, vec3 view) {
     return prepare_brdf(m, view).layer_probability;
 }
