@@ -63,7 +63,7 @@ PathIntegrator::Vertex PathIntegrator::make_vertex(const Hit& hit, const glm::ve
     Vertex vertex;
     vertex.surface = scene_.evaluate_surface(hit.instance, hit.primitive, hit.barycentrics, direction);
     vertex.frame = make_frame(vertex.surface.point.shading_normal);
-    vertex.view_local = to_local(vertex.frame, -direction);
+    vertex.brdf = prepare_brdf(vertex.surface.point.material, to_local(vertex.frame, -direction));
     return vertex;
 }
 
@@ -145,7 +145,7 @@ glm::vec3 PathIntegrator::sample_direct_light(const Vertex& vertex, std::uint32_
     const bool has_surface = dot(incident.light_normal, incident.light_normal) > 0.0f;
     const bool can_be_hit = is_sky || has_surface;
     if (can_be_hit && settings_.strategy == LightStrategy::BRDF_ONLY) return glm::vec3(0.0f);
-    glm::vec3 reflected = reflect_light(point, vertex.frame, vertex.view_local, incident);
+    glm::vec3 reflected = reflect_light(point, vertex.frame, vertex.brdf, incident);
     if (is_black(reflected)) return glm::vec3(0.0f);
 
     const RayRecord shadow =
@@ -159,7 +159,7 @@ glm::vec3 PathIntegrator::sample_direct_light(const Vertex& vertex, std::uint32_
         const float geometry = is_sky ? 1.0f
                                       : dot(incident.light_normal, -incident.direction) /
                                             (incident.distance * incident.distance);
-        const float pdf_brdf = pdf_brdf_solid_angle(point.material, vertex.view_local, light_local);
+        const float pdf_brdf = pdf_brdf_solid_angle(point.material, vertex.brdf, light_local);
         weight = weigh_light_sample(candidate.pdf / geometry, pdf_brdf);
     }
     if (settings_.planted_bug == PlantedBug::DROP_COSINE) reflected /= light_local.z;
@@ -172,15 +172,16 @@ glm::vec3 PathIntegrator::sample_direct_light(const Vertex& vertex, std::uint32_
 
 PathIntegrator::BrdfSample PathIntegrator::sample_direction(const Vertex& vertex, const glm::vec3& u) const {
     const ShadingPoint& point = vertex.surface.point;
-    const glm::vec3 local = sample_brdf(point.material, vertex.view_local, u);
+    const glm::vec3 local = sample_brdf(point.material, vertex.brdf, u);
     BrdfSample sample;
     sample.direction = from_local(vertex.frame, local);
-    sample.pdf_solid_angle = pdf_brdf_solid_angle(point.material, vertex.view_local, local);
+    sample.pdf_solid_angle = pdf_brdf_solid_angle(point.material, vertex.brdf, local);
     sample.weight = glm::vec3(0.0f);
     if (!(sample.pdf_solid_angle > 0.0f) || dot(point.geometric_normal, sample.direction) <= 0.0f)
         return sample;
+    const BrdfValue value = evaluate_brdf_parts(point.material, vertex.brdf, local);
     sample.weight =
-        evaluate_brdf(point.material, vertex.view_local, local) * (local.z / sample.pdf_solid_angle);
+        (point.material.diffuse_albedo * value.diffuse + value.specular) * (local.z / sample.pdf_solid_angle);
     return sample;
 }
 

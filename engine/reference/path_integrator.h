@@ -24,7 +24,7 @@ class PathIntegrator {
     struct Vertex {
         Surface surface;
         Frame frame;
-        glm::vec3 view_local;
+        BrdfView brdf;
     };
 
     struct BrdfSample {

@@ -7,14 +7,14 @@
 struct Receiver {
     ShadingPoint point;
     Frame frame;
-    vec3 view_local;
+    BrdfView brdf;
 };
 
 Receiver make_receiver(ShadingPoint point, vec3 to_viewer) {
     Receiver r;
     r.point = point;
     r.frame = make_frame(point.shading_normal);
-    r.view_local = to_local(r.frame, to_viewer);
+    r.brdf = prepare_brdf(point.material, to_local(r.frame, to_viewer));
     return r;
 }
 
@@ -27,7 +27,7 @@ bool load_receiver(ivec2 pixel, out Receiver r) {
 }
 
 BrdfValue reflect_at(Receiver r, IncidentLight incident) {
-    return reflect_light_parts(r.point, r.frame, r.view_local, incident);
+    return reflect_light_parts(r.point, r.frame, r.brdf, incident);
 }
 
 // p-hat without visibility.

@@ -195,6 +195,10 @@ TEST_F(Kernels, BrdfAndItsPdfAgree) {
     expect_near(KERNEL_BRDF, brdf_inputs, 1e-6, 2e-3);
 }
 
+TEST_F(Kernels, PartsOfTheBrdfAndAlbedosOfItsLayerAgree) {
+    expect_near(KERNEL_BRDF_PARTS, brdf_inputs, 1e-6, 2e-3);
+}
+
 TEST_F(Kernels, BrdfSamplesAgree) {
     expect_near(KERNEL_BRDF_SAMPLE, brdf_inputs, 1e-4);
 }

@@ -130,6 +130,8 @@ constexpr int FURNACE_PX = 512;
 // Least excess or lack that matters, and the standard error from which such claims have power.
 constexpr double FURNACE_TOLERANCE = 1e-3;
 constexpr double FURNACE_ERROR = 2.5e-4;
+// By so much the BRDF may darken white surfaces: its albedos are fits.
+constexpr double BRDF_TOLERANCE = 1e-2;
 
 // Adds `frames` frames from `first_frame` on to each instance's moments, a frame's mean over the instance's
 // pixels being one number: the spread of these numbers is the error, whatever the correlation within a frame.
@@ -289,7 +291,7 @@ double find_brightest(const std::vector<Reflectance>& stripes) {
     return brightest;
 }
 
-TEST_F(GlClosedForms, LambertAndGgxReflectNoMoreThanArrives) {
+TEST_F(GlClosedForms, WhiteDielectricsAndMetalsReflectAllThatArrives) {
     for (const double angle_deg : {0.0, 60.0, 75.0}) {
         const auto stripes = measure_stripes(angle_deg * DOUBLE_PI / 180.0, PILOT_FRAMES, FURNACE_ERROR);
         for (int i = 0; i < FINISH_COUNT; ++i) {
@@ -297,9 +299,8 @@ TEST_F(GlClosedForms, LambertAndGgxReflectNoMoreThanArrives) {
             std::printf("%.0f degrees, roughness %.1f, metallic %.0f: %.5f +- %.5f\n", angle_deg,
                         FINISHES[i].roughness, FINISHES[i].metallic, stripes[i].mean, error);
             EXPECT_LT(stripes[i].mean - 3.0 * error, 1.0 + FURNACE_TOLERANCE) << i;
+            EXPECT_GT(stripes[i].mean + 3.0 * error, 1.0 - BRDF_TOLERANCE) << i;
         }
-        // A smooth white metal loses next to nothing: nor is light lost between the bands.
-        EXPECT_GT(find_brightest(stripes), 0.99) << angle_deg;
     }
 }
 

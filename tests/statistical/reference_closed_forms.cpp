@@ -245,7 +245,7 @@ ReferenceSettings furnace_settings(LightStrategy strategy, std::uint64_t spp) {
 }
 
 TEST(ReferenceClosedForms, lambert_in_a_white_furnace_is_1_within_1e_3) {
-    for (const double angle_deg : {0.0, 60.0, 85.0}) {
+    for (const double angle_deg : {0.0, 60.0, 88.0}) {
         const Furnace furnace = measure_furnace(lambert_material(glm::vec3(1.0f)), angle_deg,
                                                 furnace_settings(LightStrategy::MIS, 1280));
         EXPECT_LT(furnace.standard_error, 2.5e-4);
@@ -253,8 +253,7 @@ TEST(ReferenceClosedForms, lambert_in_a_white_furnace_is_1_within_1e_3) {
     }
 }
 
-TEST(ReferenceClosedForms, lambert_and_ggx_never_reflect_more_than_arrives) {
-    double brightest = 0.0;
+TEST(ReferenceClosedForms, white_dielectrics_and_metals_reflect_all_that_arrives) {
     for (const float roughness : {0.0f, 0.2f, 0.5f, 1.0f}) {
         for (const float metallic : {0.0f, 1.0f}) {
             for (const float ior : {1.5f, 2.5f}) {
@@ -265,14 +264,14 @@ TEST(ReferenceClosedForms, lambert_and_ggx_never_reflect_more_than_arrives) {
                     material.ior = ior;
                     const Furnace furnace =
                         measure_furnace(material, angle_deg, furnace_settings(LightStrategy::BRDF_ONLY, 128));
-                    brightest = std::max(brightest, furnace.mean);
                     ASSERT_LE(furnace.mean - 3.0 * furnace.standard_error, 1.0 + 1e-3)
+                        << roughness << " " << metallic << " " << ior << " " << angle_deg;
+                    ASSERT_GE(furnace.mean + 3.0 * furnace.standard_error, 1.0 - 1e-2)
                         << roughness << " " << metallic << " " << ior << " " << angle_deg;
                 }
             }
         }
     }
-    EXPECT_GT(brightest, 0.99);
 }
 
 // What a surface of these parameters reflects of radiance 1 from everywhere, by quadrature in double
@@ -284,8 +283,11 @@ double integrate_reflectance(const Material& material, double angle_deg) {
     const double alpha = double(material.roughness) * material.roughness;
     const glm::dvec3 view = test::view_at(angle_deg);
     return test::integrate_hemisphere(
-        [&](const glm::dvec3& l) { return test::oracle_brdf(albedo, f0, 1.0, alpha, view, l) * l.z; }, view,
-        alpha, 100'000);
+        [&](const glm::dvec3& l) {
+            return test::oracle_brdf(albedo, f0, 1.0, alpha, view, l, test::shipped_albedos(alpha, view, l)) *
+                   l.z;
+        },
+        view, alpha, 100'000);
 }
 
 // Lamps as bright as the sky that they hide change nothing; but how often each of the two is drawn, and what

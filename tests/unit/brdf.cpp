@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "core/statistics.h"
+#include "shared/math/shading.h"
 #include "support/brdf_cases.h"
 #include "support/draws.h"
 #include "support/goodness_of_fit.h"
@@ -19,7 +20,13 @@ using namespace test;
 // ---- Values
 // -------------------------------------------------------------------------------------------------------
 
-TEST(Brdf, EqualsTheTextbookFormulasInDoublePrecision) {
+// The twin with the albedos of the shipped fits: equal to rounding.
+double oracle(const SurfaceMaterial& m, const dvec3& v, const dvec3& l) {
+    return test::oracle_brdf(m.diffuse_albedo.x, m.f0.x, m.f90, m.alpha, v, l,
+                             test::shipped_albedos(m.alpha, v, l));
+}
+
+TEST(Brdf, EqualsThePapersFormulasInDoublePrecision) {
     Draws draws(1);
     for (const double alpha : ALPHAS) {
         for (int i = 0; i < 2000; ++i) {
@@ -32,8 +39,7 @@ TEST(Brdf, EqualsTheTextbookFormulasInDoublePrecision) {
             const vec3 u = draws.uniform_vec3();
             const vec3 l = i % 2 == 0 ? sample_cosine_hemisphere(vec2(u)) : sample_brdf(m, v, u);
             if (v.z < 0.02f || l.z < 0.02f) continue;
-            const double expected = test::oracle_brdf(m.diffuse_albedo.x, m.f0.x, m.f90, m.alpha,
-                                                      glm::normalize(dvec3(v)), glm::normalize(dvec3(l)));
+            const double expected = oracle(m, glm::normalize(dvec3(v)), glm::normalize(dvec3(l)));
             // A half vector is rounded to 1e-7, which is 1e-7 / alpha of the highlight's width; it counts
             // four times.
             EXPECT_NEAR(shipped_brdf(m, v, l), expected, (1e-5 + 2e-6 / alpha) * expected) << alpha;
@@ -41,7 +47,17 @@ TEST(Brdf, EqualsTheTextbookFormulasInDoublePrecision) {
     }
 }
 
-TEST(Brdf, PdfEqualsTheTextbookFormulasInDoublePrecision) {
+// The layer's share of what a grey surface reflects, the layer's single scattering alone; at least a tenth.
+double expected_layer_probability(double albedo, double f0, double alpha, const dvec3& view) {
+    const auto [at_view, at_light, mean] = test::shipped_albedos(alpha, view, view);
+    const double layer = f0 * (at_view.whole - at_view.grazing) + at_view.grazing;
+    const double mean_schlick = f0 + (1.0 - f0) / 21.0;
+    const double multiple = mean_schlick * mean_schlick * mean.whole /
+                            (1.0 - mean_schlick * (1.0 - mean.whole)) * (1.0 - at_view.whole);
+    return std::max(layer / (layer + multiple + albedo * (1.0 - layer - multiple)), 0.1);
+}
+
+TEST(Brdf, PdfEqualsThePapersFormulasInDoublePrecision) {
     Draws draws(2);
     for (const double alpha : ALPHAS) {
         for (int i = 0; i < 2000; ++i) {
@@ -51,8 +67,7 @@ TEST(Brdf, PdfEqualsTheTextbookFormulasInDoublePrecision) {
             const vec3 l = sample_brdf(m, v, draws.uniform_vec3());
             if (v.z < 0.02f || l.z < 0.02f) continue;
             const dvec3 view = glm::normalize(dvec3(v));
-            const double fresnel = test::schlick(m.f0.x, 1.0, view.z);
-            const double layer = glm::clamp(fresnel / (fresnel + albedo * (1.0 - fresnel)), 0.1, 0.9);
+            const double layer = expected_layer_probability(albedo, m.f0.x, m.alpha, view);
             const dvec3 light = glm::normalize(dvec3(l));
             const double expected =
                 (1.0 - layer) * light.z / M_PI + layer * test::oracle_layer_pdf(m.alpha, view, light);
@@ -79,6 +94,46 @@ TEST(Brdf, IsReciprocalAndNeverNegative) {
     }
 }
 
+TEST(Brdf, ItsPartsAreTheDemodulatedBaseAndTheLayer) {
+    Draws draws(6);
+    for (int i = 0; i < 5000; ++i) {
+        SurfaceMaterial m{draws.uniform_vec3(), draws.uniform_vec3(), 1.0f, float(draws.uniform(1e-3, 1.0))};
+        const vec3 v = sample_cosine_hemisphere(draws.uniform_vec2());
+        const vec3 l = sample_cosine_hemisphere(draws.uniform_vec2());
+        const BrdfValue parts = evaluate_brdf_parts(m, v, l);
+        EXPECT_EQ(evaluate_brdf(m, v, l), m.diffuse_albedo * parts.diffuse + parts.specular);
+        const BrdfValue once_prepared = evaluate_brdf_parts(m, prepare_brdf(m, v), l);
+        EXPECT_EQ(once_prepared.diffuse, parts.diffuse);
+        EXPECT_EQ(once_prepared.specular, parts.specular);
+        m.diffuse_albedo = vec3(0.0f);
+        EXPECT_EQ(evaluate_brdf_parts(m, v, l).diffuse, parts.diffuse) << "the base holds its albedo";
+        EXPECT_EQ(evaluate_brdf(m, v, l), parts.specular);
+    }
+}
+
+TEST(Brdf, PartsOfReflectedLightAreThoseOfTheBrdfTimesTheCosine) {
+    Draws draws(7);
+    for (int i = 0; i < 2000; ++i) {
+        const vec3 normal = draws.unit_vector();
+        ShadingPoint p{vec3(0.0f), 0.0f, normal, normal, make_material(0.6, 0.04, 1.0, 0.2)};
+        const Frame frame = make_frame(normal);
+        const vec3 view = sample_cosine_hemisphere(draws.uniform_vec2());
+        IncidentLight incident{};
+        incident.direction = draws.unit_vector();
+        incident.value = draws.uniform_vec3();
+        const vec3 local = to_local(frame, incident.direction);
+        const BrdfValue brdf = evaluate_brdf_parts(p.material, view, local);
+        const BrdfValue parts = reflect_light_parts(p, frame, view, incident);
+        const vec3 arriving = incident.value * max(local.z, 0.0f);
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_FLOAT_EQ(parts.diffuse[c], brdf.diffuse[c] * arriving[c]);
+            EXPECT_FLOAT_EQ(parts.specular[c], brdf.specular[c] * arriving[c]);
+        }
+        EXPECT_EQ(reflect_light(p, frame, view, incident),
+                  p.material.diffuse_albedo * parts.diffuse + parts.specular);
+    }
+}
+
 TEST(Brdf, WithoutReflectanceItIsLambertAndOnlyTheCosineIsSampled) {
     const SurfaceMaterial m = make_material(0.7, 0.0, 0.0, 0.25);
     const vec3 v = normalize(vec3(0.3f, 0.1f, 0.8f));
@@ -87,8 +142,14 @@ TEST(Brdf, WithoutReflectanceItIsLambertAndOnlyTheCosineIsSampled) {
     EXPECT_FLOAT_EQ(pdf_brdf_solid_angle(m, v, vec3(0.0f, 0.6f, 0.8f)), 0.8f * INV_PI);
 }
 
-TEST(Brdf, ABlackBaseSamplesTheLayerAlone) {
-    EXPECT_EQ(layer_probability(make_material(0.0, 0.04, 1.0, 0.25), vec3(0.0f, 0.0f, 1.0f)), 1.0f);
+TEST(Brdf, ASmoothMirrorSamplesTheLayerAlmostAlone) {
+    EXPECT_GT(layer_probability(make_material(0.0, 1.0, 1.0, 1e-3), vec3(0.0f, 0.0f, 1.0f)), 0.999f);
+}
+
+TEST(Brdf, ARoughMirrorSamplesTheCosineForWhatItScattersMoreThanOnce) {
+    // At width 1, ln 2 of the light from straight above is lost to single scattering.
+    EXPECT_NEAR(layer_probability(make_material(0.0, 1.0, 1.0, 1.0), vec3(0.0f, 0.0f, 1.0f)),
+                1.0 - std::log(2.0), 0.01);
 }
 
 TEST(Brdf, LightFromBelowReflectsNothingAndIsNeverSampled) {
@@ -249,11 +310,8 @@ double estimator_z(const Pdf& pdf, const SurfaceMaterial& m, const dvec3& view) 
         const double density = l.z > 0.0f ? pdf(m, vec3(view), l) : 0.0;
         moments.add(density > 0.0 ? shipped_brdf(m, vec3(view), l) * l.z / density : 0.0);
     }
-    const double truth = test::integrate_hemisphere(
-        [&](const dvec3& l) {
-            return test::oracle_brdf(m.diffuse_albedo.x, m.f0.x, m.f90, m.alpha, view, l) * l.z;
-        },
-        view, m.alpha, 100'000);
+    const double truth = test::integrate_hemisphere([&](const dvec3& l) { return oracle(m, view, l) * l.z; },
+                                                    view, m.alpha, 100'000);
     // Quadrature and single precision: 2e-4 of the value.
     return (moments.mean() - truth) / (std::sqrt(moments.variance_of_mean()) + 2e-4 * truth);
 }

@@ -8,7 +8,7 @@ vec3 sample_first_direction(Receiver r, vec3 u) {
 #elif defined(TARN_SAMPLE_COSINE)
     return sample_cosine_hemisphere(u.yz);
 #else
-    return sample_brdf(r.point.material, r.view_local, u);
+    return sample_brdf(r.point.material, r.brdf, u);
 #endif
 }
 
@@ -19,7 +19,7 @@ float first_direction_pdf(Receiver r, vec3 local) {
 #elif defined(TARN_SAMPLE_COSINE)
     return max(local.z, 0.0f) * INV_PI;
 #else
-    return pdf_brdf_solid_angle(r.point.material, r.view_local, local);
+    return pdf_brdf_solid_angle(r.point.material, r.brdf, local);
 #endif
 }
 

@@ -243,7 +243,7 @@ SampleReservoir merge(Pair p, ivec2 pixel) {
     if (t.here_at_previous > 0.0f) previous_offer *= t.previous_at_previous / t.here_at_previous;
 #endif
 #ifdef TARN_PLANT_PREVIOUS_NORMAL
-    Receiver mixed_up = make_receiver(p.here.point, from_local(p.here.frame, p.here.view_local));
+    Receiver mixed_up = make_receiver(p.here.point, from_local(p.here.frame, p.here.brdf.view));
     mixed_up.frame = p.previous_receiver.frame;
     if (t.here_at_previous > 0.0f) {
         previous_offer *= sample_target(mixed_up, p.previous.chosen) / t.here_at_previous;

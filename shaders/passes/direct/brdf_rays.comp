@@ -13,9 +13,9 @@ layout(std430, binding = 0) writeonly buffer Rays { uvec4 out_rays[]; };
 RayRecord brdf_ray(ivec2 pixel, Receiver r) {
     RayRecord ray = inactive_ray();
     vec4 u = random4(pixel_key(pixel), sample_index * DIMENSIONS_PER_SAMPLE + DIMENSION_BRDF);
-    vec3 local = sample_brdf(r.point.material, r.view_local, u.xyz);
+    vec3 local = sample_brdf(r.point.material, r.brdf, u.xyz);
     vec3 direction = from_local(r.frame, local);
-    if (!(pdf_brdf_solid_angle(r.point.material, r.view_local, local) > 0.0f)) return ray;
+    if (!(pdf_brdf_solid_angle(r.point.material, r.brdf, local) > 0.0f)) return ray;
     if (dot(r.point.geometric_normal, direction) <= 0.0f) return ray;
     ray.origin =
         offset_ray_origin(r.point.position, r.point.position_error, r.point.geometric_normal, direction);

@@ -76,7 +76,7 @@ float sample_coverage(LightSample drawn) {
 // arrive there only the covered share ends on the light.
 float brdf_pdf(Stream s, LightSample drawn, IncidentLight incident) {
 #ifdef TARN_BRDF_CANDIDATE
-    float pdf = pdf_brdf_solid_angle(s.receiver.point.material, s.receiver.view_local,
+    float pdf = pdf_brdf_solid_angle(s.receiver.point.material, s.receiver.brdf,
                                      to_local(s.receiver.frame, incident.direction));
     if (incident.distance >= RAY_INFINITY) return drawn.light == LIGHT_ENVIRONMENT ? pdf : 0.0f;
     pdf *= sample_coverage(drawn);

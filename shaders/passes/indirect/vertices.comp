@@ -83,9 +83,9 @@ void keep_place(inout PathState s, HitRecord hit, Receiver r, NextEvent light) {
 
 // Where the path goes on; adds that step to the throughput.
 RayRecord continue_path(inout PathState s, Receiver r, RandomKey key, uint pixel) {
-    vec3 local = sample_brdf(r.point.material, r.view_local,
+    vec3 local = sample_brdf(r.point.material, r.brdf,
                              random4(key, DIMENSION_INDIRECT + (bounce + 1u) * DIMENSIONS_PER_BOUNCE).xyz);
-    float pdf = pdf_brdf_solid_angle(r.point.material, r.view_local, local);
+    float pdf = pdf_brdf_solid_angle(r.point.material, r.brdf, local);
     vec3 direction = from_local(r.frame, local);
     RayRecord ray = leave_surface(r.point, direction, pdf, pixel);
     if (ray.max_t < 0.0f) return ray;
@@ -93,7 +93,8 @@ RayRecord continue_path(inout PathState s, Receiver r, RandomKey key, uint pixel
     s.further_direction = direction;
     s.throughput = vec3(1.0f / pdf);
 #else
-    s.throughput *= evaluate_brdf(r.point.material, r.view_local, local) * (max(local.z, 0.0f) / pdf);
+    s.throughput *= join_parts(r.point.material, evaluate_brdf_parts(r.point.material, r.brdf, local)) *
+                    (max(local.z, 0.0f) / pdf);
 #endif
     return ray;
 }

@@ -23,21 +23,30 @@ struct Surface {
     bool unlit;     // emission is the whole answer and holds for the camera alone
 };
 
-// Reflected radiance for one incident sample, base and layer apart: BRDF * cosine * value. Divide by the
-// sample's pdf. Light from behind the true surface reflects nothing, whatever the shading normal says.
-FN BrdfValue reflect_light_parts(ShadingPoint p, Frame frame, vec3 view_local, IncidentLight incident) {
-    if (dot(p.geometric_normal, incident.direction) <= 0.0f) return no_reflection();
+// Reflected radiance for one incident sample: BRDF * cosine * value. Divide by the sample's pdf. Light from
+// behind the true surface reflects nothing, whatever the shading normal says. `diffuse` is demodulated: times
+// the albedo and plus `specular` it is the whole.
+FN BrdfValue reflect_light_parts(ShadingPoint p, Frame frame, BrdfView prepared, IncidentLight incident) {
     vec3 light_local = to_local(frame, incident.direction);
-    float cosine = max(light_local.z, 0.0f);
+    vec3 arriving = incident.value * max(light_local.z, 0.0f);
 #ifdef TARN_PLANT_DROP_COSINE
-    cosine = 1.0f;
+    arriving = incident.value;
 #endif
-    return scale_parts(evaluate_brdf_parts(p.material, view_local, light_local), incident.value * cosine);
+    if (dot(p.geometric_normal, incident.direction) <= 0.0f) arriving = vec3(0.0f);
+    return scale_parts(evaluate_brdf_parts(p.material, prepared, light_local), arriving);
 }
 
-// The same together.
+FN BrdfValue reflect_light_parts(ShadingPoint p, Frame frame, vec3 view_local, IncidentLight incident) {
+    return reflect_light_parts(p, frame, prepare_brdf(p.material, view_local), incident);
+}
+
+FN vec3 reflect_light(ShadingPoint p, Frame frame, BrdfView prepared, IncidentLight incident) {
+    return join_parts(p.material, reflect_light_parts(p, frame, prepared, incident));
+}
+
+// The same for a single sample.
 FN vec3 reflect_light(ShadingPoint p, Frame frame, vec3 view_local, IncidentLight incident) {
-    return join_parts(p.material, reflect_light_parts(p, frame, view_local, incident));
+    return reflect_light(p, frame, prepare_brdf(p.material, view_local), incident);
 }
 
 // The resampling target (p-hat): BRDF * Le * G without visibility, its channels weighed by `weights`: those

@@ -33,6 +33,7 @@ CONSTANT uint KERNEL_SKY_UV = 14u;
 CONSTANT uint KERNEL_ALIAS = 15u;
 CONSTANT uint KERNEL_FRAME = 16u;
 CONSTANT uint KERNEL_BLUE_NOISE = 17u;
+CONSTANT uint KERNEL_BRDF_PARTS = 18u;
 
 FN uvec4 run_integers(uvec4 a, uvec4 b) {
     RandomKey key;
@@ -123,6 +124,13 @@ FN uvec4 run_brdf(uvec4 a, uvec4 b, uvec4 c) {
                           layer_probability(m, view), fresnel_schlick(m.f0, m.f90, view.z).x));
 }
 
+FN uvec4 run_brdf_parts(uvec4 a, uvec4 b, uvec4 c) {
+    SurfaceMaterial m = kernel_material(c);
+    BrdfValue parts = evaluate_brdf_parts(m, row_xyz(a), row_xyz(b));
+    LayerAlbedo albedo = evaluate_layer_albedo(fit_layer(m.alpha), row_xyz(a).z);
+    return pack_row4(vec4(parts.diffuse.x, parts.specular.x, albedo.loss, albedo.fresnel));
+}
+
 FN uvec4 run_sky_direction(uvec4 a, uvec4 b) {
     uint width = 4096u;
     uint height = 2048u;
@@ -169,6 +177,7 @@ FN uvec4 run_kernel(uint kernel, uvec4 a, uvec4 b, uvec4 c, uvec4 d) {
     if (kernel == KERNEL_PUNCTUAL_LIGHT) return run_punctual_light(a, b, c, d);
     if (kernel == KERNEL_CAMERA_RAY) return run_camera_ray(a, b, c, d);
     if (kernel == KERNEL_BRDF) return run_brdf(a, b, c);
+    if (kernel == KERNEL_BRDF_PARTS) return run_brdf_parts(a, b, c);
     if (kernel == KERNEL_BRDF_SAMPLE)
         return pack_row(sample_brdf(kernel_material(c), row_xyz(a), row_xyz(d)), 0u);
     if (kernel == KERNEL_SKY_DIRECTION) return run_sky_direction(a, b);
