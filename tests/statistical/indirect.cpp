@@ -75,12 +75,19 @@ class Indirect : public OnContext<> {
                 samples.add(image);
             }
         }
-        if (planted.empty()) expect_silence(renderer);
+        if (planted.empty()) expect_silence(renderer, settings, seeds * (frame + 1));
         return box.test(samples, fmt::format("{}, frame {}", what, frame + 1));
     }
 
-    static void expect_silence(const Renderer& renderer) {
-        for (const auto& [name, value] : renderer.read_counters()) EXPECT_EQ(value, 0u) << name;
+    // 1/Z asks again whether a pixel sees its own sample. A path that ended on an edge may be traced past it
+    // then: such a sample is lost, and counted. No more than one in 100 000.
+    static void expect_silence(const Renderer& renderer, const RenderSettings& settings, int frames) {
+        const bool asks_again = settings.indirect.reuse.mis == Mis::ONE_OVER_Z;
+        const double samples = double(frames) * WIDTH_PX * HEIGHT_PX;
+        for (const auto& [name, value] : renderer.read_counters()) {
+            const bool may_be = asks_again && name == "bad_reservoirs";
+            EXPECT_LE(double(value), may_be ? 1e-5 * samples : 0.0) << name;
+        }
     }
 
     static void expect_pass(const TileTest& test, const std::string& what) {
@@ -115,7 +122,8 @@ TEST_F(Indirect, ReusedSamplesHaveTheReferencesMeanWhateverTheWeights) {
     for (const Mis mis : {Mis::ONE_OVER_Z, Mis::BALANCE, Mis::PAIRWISE}) {
         const std::string what = fmt::format("restir, mis {}", int(mis));
         expect_pass(run(unbiased(mis), what, 0, FIRST_FRAME_SEEDS), what);
-        expect_pass(run(unbiased(mis), what, 15, mis == Mis::ONE_OVER_Z ? 2 * SEEDS : SEEDS), what);
+        // Pairwise has the shortest tails.
+        expect_pass(run(unbiased(mis), what, 15, mis == Mis::PAIRWISE ? SEEDS : 4 * SEEDS), what);
     }
 }
 
@@ -126,7 +134,7 @@ TEST_F(Indirect, ReusedSamplesKeepTheReferencesMeanForManyFrames) {
 TEST_F(Indirect, AllSamplesOfAStepTogetherHaveTheReferencesMean) {
     RenderSettings settings = unbiased(Mis::BALANCE);
     settings.indirect.reuse.shade = SampleShading::ALL;
-    expect_pass(run(settings, "restir, shade all", 7, SEEDS), "shade all");
+    expect_pass(run(settings, "restir, shade all", 7, 4 * SEEDS), "shade all");
 }
 
 TEST_F(Indirect, ReusedSamplesOfSeveralBouncesHaveTheReferencesMean) {
