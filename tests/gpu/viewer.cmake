@@ -1,6 +1,7 @@
 # What the window shows: the display pass, the game's window, and the viewer in it with real events.
 tarn_test(display_pass LABEL gpu LIBRARIES tarn_passes tarn_platform)
 tarn_test(exposure_pass LABEL gpu LIBRARIES tarn_passes tarn_platform tarn_test_support)
+tarn_test(jitter LABEL gpu LIBRARIES tarn_renderer tarn_platform tarn_rays tarn_world)
 tarn_test(game_window LABEL gpu LIBRARIES tarn_game)
 if(WITH_DISPLAY)
   add_test(NAME game_window_in_xvfb COMMAND ${WITH_DISPLAY} $<TARGET_FILE:test_game_window>)

@@ -62,5 +62,18 @@ TEST(Methods, MessagesNameWhatIsWrongAndWhatThereIs) {
     EXPECT_NE(message_of("").find("'' is no method"), std::string::npos);
 }
 
+TEST(Methods, AReferenceOfTheirOwnBouncesJudgesThem) {
+    EXPECT_EQ(count_bounces(parse_methods("uniform,restir-fast")), 1);
+    EXPECT_EQ(count_bounces(parse_methods("path,restir-gi")), 2);
+    EXPECT_EQ(count_bounces(parse_methods("restir-gi:indirect-bounces=3")), 4);
+    EXPECT_EQ(count_bounces(parse_methods("path:indirect=off")), 1);
+    try {
+        count_bounces(parse_methods("ris,path"));
+        FAIL() << "direct and indirect light share no reference";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("'ris' and 'path'"), std::string::npos) << error.what();
+    }
+}
+
 }  // namespace
 }  // namespace tarn::test

@@ -37,6 +37,10 @@ constexpr MethodRow METHODS[] = {
      "candidates", RESTIR_WARM_UP_FRAMES},
     {"restir-unbiased", "ReSTIR, preset unbiased: rays in all MIS weights", "preset=unbiased", "candidates",
      RESTIR_WARM_UP_FRAMES},
+    {"path", "preset fast, and indirect light by one path a pixel", "preset=fast,indirect=path", "",
+     RESTIR_WARM_UP_FRAMES},
+    {"restir-gi", "preset fast, and indirect light by path samples reused over time and neighbours",
+     "preset=fast,indirect=restir", "", RESTIR_WARM_UP_FRAMES},
 };
 
 // Applies "setting=value" or "preset=name" and returns what stands before the sign.
@@ -83,6 +87,20 @@ const Setting& find_setting(const std::string& name) {
     if (setting != table.end()) return *setting;
     throw Error("'{}' is no setting; there are: {}", name,
                 fmt::join(table | std::views::transform(&Setting::name), ", "));
+}
+
+int count_bounces(const std::vector<Method>& methods) {
+    const auto bounces_of = [](const Method& method) {
+        const IndirectSettings& indirect = method.settings.indirect;
+        return 1 + (indirect.runs() ? indirect.bounces : 0);
+    };
+    for (const Method& method : methods) {
+        if (bounces_of(method) == bounces_of(methods.front())) continue;
+        throw Error(
+            "methods '{}' and '{}' need references of {} and {} bounces: compare them in runs of their own",
+            methods.front().label, method.label, bounces_of(methods.front()), bounces_of(method));
+    }
+    return bounces_of(methods.front());
 }
 
 Method parse_method(const std::string& text) {

@@ -28,6 +28,10 @@ Method parse_method(const std::string& text);
 // Error as parse_method does, and where a method is named twice or none is.
 std::vector<Method> parse_methods(const std::string& text);
 
+// Bounces of the reference that these methods are measured against: 1, and those of their indirect light.
+// Throws Error where they do not agree, since the same reference cannot judge them all.
+int count_bounces(const std::vector<Method>& methods);
+
 // The row of the settings table with this name. Throws Error that lists the names.
 const Setting& find_setting(const std::string& name);
 

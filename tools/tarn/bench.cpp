@@ -14,7 +14,7 @@
 #include "bench/results.h"
 #include "commands.h"
 #include "core/error.h"
-#include "direct_truth.h"
+#include "find_truth.h"
 #include "gl/shader_source.h"
 #include "interrupt.h"
 #include "renderer_source.h"
@@ -49,9 +49,13 @@ CameraMotion camera_motion(const BenchCommand& command) {
     return {command.walk_m_per_s / FRAMES_PER_S, command.turn_deg_per_s / FRAMES_PER_S};
 }
 
-std::string all_method_names() {
+// Those of direct light: methods of a run must share their reference.
+std::string default_method_names() {
     std::string names;
-    for (const Method& method : method_table()) names += (names.empty() ? "" : ",") + method.label;
+    for (const Method& method : method_table()) {
+        if (method.settings.indirect.runs()) continue;
+        names += (names.empty() ? "" : ",") + method.label;
+    }
     return names;
 }
 
@@ -105,8 +109,8 @@ Json bench_scene(const BenchCommand& command, const BenchPlan& plan, const std::
     machine = session.describe_machine();
     const World& world = session.loaded().world;
     const CameraRecord camera = choose_camera(options.scene, session.loaded().scene, world);
-    const ReferenceSettings reference =
-        direct_truth_settings(options.scene.width, options.scene.height, camera, command.reference_spp);
+    const ReferenceSettings reference = truth_settings(options.scene.width, options.scene.height, camera,
+                                                       command.reference_spp, count_bounces(plan.methods));
 
     const std::string name = std::filesystem::path(scene).stem().string();
     const std::filesystem::path out = command.out;
@@ -117,7 +121,7 @@ Json bench_scene(const BenchCommand& command, const BenchPlan& plan, const std::
                            {"machine", machine}});
     works.push_back(work);
     if (work.is_resumed()) fmt::print("{}: going on where an earlier run stopped\n", name);
-    const Truth truth = find_direct_truth(session, options, reference);
+    const Truth truth = find_truth(session, options, reference);
 
     RendererSource source(world, session.tracer(), options.scene.width, options.scene.height);
     source.set_camera(camera, camera_motion(command));
@@ -242,7 +246,7 @@ void add_bench_command(CLI::App& app) {
     CLI::App* sub = app.add_subcommand("bench", "Compare methods: error against time, bias apart from noise");
     command->options.scene.width = 320;
     command->options.scene.height = 180;
-    command->methods = all_method_names();
+    command->methods = default_method_names();
     add_session_options(*sub, command->options);
     // Scenes may be several.
     sub->remove_option(sub->get_option("SCENE"));

@@ -7,7 +7,7 @@
 #include "bench/sequence_json.h"
 #include "core/display.h"
 #include "core/log.h"
-#include "direct_truth.h"
+#include "find_truth.h"
 #include "image_io/image_io.h"
 #include "interrupt.h"
 #include "silhouettes.h"
@@ -180,9 +180,9 @@ class Flyer {
 
     // Nothing where the user interrupts.
     std::optional<Truth> find_truth(int frame) {
-        const ReferenceResult reference = find_direct_reference(
-            session_, direct_truth_settings(renderers_.front()->width_px(), renderers_.front()->height_px(),
-                                            camera_, plan_.reference_spp));
+        const ReferenceResult reference = find_reference(
+            session_, truth_settings(renderers_.front()->width_px(), renderers_.front()->height_px(), camera_,
+                                     plan_.reference_spp, count_bounces(plan_.methods)));
         if (reference.cancelled) return std::nullopt;
         write_png(out_ / flight_reference_name(frame),
                   display_from_radiance(reference.radiance, *flight_.exposure_ev));

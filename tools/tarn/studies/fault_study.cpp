@@ -14,7 +14,7 @@
 #include "bench/results.h"
 #include "core/error.h"
 #include "core/log.h"
-#include "direct_truth.h"
+#include "find_truth.h"
 #include "interrupt.h"
 #include "renderer_source.h"
 #include "studies/study.h"
@@ -242,10 +242,9 @@ void run(const FaultStudy& study) {
     RenderSession session(study.options);
     const CameraRecord camera =
         choose_camera(study.options.scene, session.loaded().scene, session.loaded().world);
-    const Truth truth =
-        find_direct_truth(session, study.options,
-                          direct_truth_settings(study.options.scene.width, study.options.scene.height, camera,
-                                                study.reference_spp));
+    const Truth truth = find_truth(session, study.options,
+                                   truth_settings(study.options.scene.width, study.options.scene.height,
+                                                  camera, study.reference_spp, 1));
     RendererSource source(session.loaded().world, session.tracer(), study.options.scene.width,
                           study.options.scene.height);
     source.set_camera(camera);

@@ -7,7 +7,7 @@
 #include "core/display.h"
 #include "core/error.h"
 #include "core/log.h"
-#include "direct_truth.h"
+#include "find_truth.h"
 #include "image_io/image_io.h"
 #include "metrics/bias_variance.h"
 #include "studies/study.h"
@@ -236,10 +236,9 @@ void run(const VisibilityStudy& study) {
     RenderSession session(study.options);
     const CameraRecord camera =
         choose_camera(study.options.scene, session.loaded().scene, session.loaded().world);
-    const Truth truth =
-        find_direct_truth(session, study.options,
-                          direct_truth_settings(study.options.scene.width, study.options.scene.height, camera,
-                                                study.reference_spp));
+    const Truth truth = find_truth(session, study.options,
+                                   truth_settings(study.options.scene.width, study.options.scene.height,
+                                                  camera, study.reference_spp, 1));
     const std::vector<ModeImages> modes = measure_modes(study, session, camera);
     fmt::print("{}: {} seeds of {} frames after {}, reference of {} samples a pixel\n",
                study.options.scene.scene.stem().string(), study.seeds, study.frames, study.warm_up,

@@ -1,4 +1,4 @@
-#include "direct_truth.h"
+#include "find_truth.h"
 
 #include "bench/reference_cache.h"
 #include "core/error.h"
@@ -13,12 +13,13 @@ constexpr std::uint32_t REFERENCE_SEED = 0x5eed0001u;
 
 }  // namespace
 
-ReferenceSettings direct_truth_settings(int width_px, int height_px, const CameraRecord& camera, int spp) {
+ReferenceSettings truth_settings(int width_px, int height_px, const CameraRecord& camera, int spp,
+                                 int bounces) {
     ReferenceSettings settings;
     settings.width = width_px;
     settings.height = height_px;
     settings.camera = camera;
-    settings.direct_only = true;
+    settings.bounces = bounces;
     settings.light_tree = true;
     settings.spp = std::uint64_t(spp);
     settings.seed = REFERENCE_SEED;
@@ -26,13 +27,12 @@ ReferenceSettings direct_truth_settings(int width_px, int height_px, const Camer
     return settings;
 }
 
-ReferenceResult find_direct_reference(RenderSession& session, const ReferenceSettings& settings) {
+ReferenceResult find_reference(RenderSession& session, const ReferenceSettings& settings) {
     return ReferenceCache(default_cache_folder()).get(session.loaded().world, session.tracer(), settings);
 }
 
-Truth find_direct_truth(RenderSession& session, const RenderOptions& options,
-                        const ReferenceSettings& settings) {
-    const ReferenceResult reference = find_direct_reference(session, settings);
+Truth find_truth(RenderSession& session, const RenderOptions& options, const ReferenceSettings& settings) {
+    const ReferenceResult reference = find_reference(session, settings);
     if (reference.cancelled) throw Error("interrupted while the reference was rendered");
     FrameInput input;
     input.camera = settings.camera;
