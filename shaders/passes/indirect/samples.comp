@@ -25,8 +25,8 @@ layout(std430, binding = 0) writeonly buffer Reservoirs { uvec4 out_reservoirs[]
 #endif
 
 // The same place, lit from where the path went on.
-SAMPLE further_sample(PathState s) {
-    SAMPLE further = s.place;
+PathSample further_sample(PathState s) {
+    PathSample further = s.place;
     further.incident_direction = s.further_direction;
     further.incident = s.further;
     return further;
@@ -50,7 +50,7 @@ void main() {
     Receiver r;
     if (load_receiver(pixel, r)) {
         PathState s = load_finished_path(pixel_index(pixel));
-        PathPlace place = load_place(s.place);
+        PathPlace place = load_place_at(s.place, 0u);
         IncidentLight arriving = place_light(s.place, place, r.point.position);
         arriving.value += place_light(further_sample(s), place, r.point.position).value;
         float pdf = path_pdf(r, arriving);
@@ -71,9 +71,9 @@ void store(uint pixel, SampleReservoir r) {
 }
 
 // One of the two directions, its light over the probability of the choice.
-SAMPLE choose_direction(PathState s, PathPlace place, Receiver r, float u) {
-    SAMPLE by_light = s.place;
-    SAMPLE further = further_sample(s);
+PathSample choose_direction(PathState s, PathPlace place, Receiver r, float u) {
+    PathSample by_light = s.place;
+    PathSample further = further_sample(s);
     float first = target_at(r, place_light(by_light, place, r.point.position));
     float second = target_at(r, place_light(further, place, r.point.position));
     float total = first + second;
@@ -93,8 +93,9 @@ void main() {
     Receiver r;
     if (load_receiver(pixel, r)) {
         PathState s = load_finished_path(pixel_index(pixel));
-        PathPlace place = load_place(s.place);
-        SAMPLE chosen = choose_direction(s, place, r, random4(pixel_key(pixel), DIMENSION_INDIRECT + 1u).x);
+        PathPlace place = load_place_at(s.place, 0u);
+        PathSample chosen =
+            choose_direction(s, place, r, random4(pixel_key(pixel), DIMENSION_INDIRECT + 1u).x);
         IncidentLight light = place_light(chosen, place, r.point.position);
         float target = target_at(r, light);
         LiveReservoir live = empty_live_reservoir();
@@ -102,7 +103,7 @@ void main() {
         if (offer == OFFER_BAD) count_event(COUNTER_BAD_WEIGHT);
         if (has_overflown(live)) count_event(COUNTER_BAD_RESERVOIR);
         result.state = finish_reservoir(live, 1.0f);
-        if (holds_sample(result)) result.chosen = chosen;
+        if (holds_sample(result)) result.chosen = PlacedSample(chosen, place);
     }
     store(pixel_index(pixel), result);
 }
