@@ -248,6 +248,8 @@ std::vector<ShaderFamily> shader_families() {
             family_of<BoilingFilterVariant>(),
             family_of<SpatialVariant>(),
             family_of<ShadeVariant>(),
+            family_of<CoarseSurfacesVariant>(),
+            family_of<UpsampleVariant>(),
             family_of<IndirectRaysVariant>(),
             family_of<PathVerticesVariant>(),
             family_of<PathSamplesVariant>(),
