@@ -4,7 +4,8 @@
 // Each pixel takes a weighted mean of the four coarse pixels around it: bilinear weights, times how alike the surfaces
 // are. The weights are divided by their sum, so that even light stays what it is; they look at surfaces alone, never at
 // the light, and so the mean stays linear in it. Where none of the four is alike, the nearest that passes the test for
-// neighbours stands in. Runs with the coarse picture's frame block.
+// neighbours stands in; where none around does, as on what is thinner than a block, the nearest of all: light that leaks
+// there errs less than none. Such pixels are counted. Runs with the coarse picture's frame block.
 #include "lib/frame.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/counters.glsl"
@@ -80,9 +81,9 @@ vec2 find_share(vec2 pixel, vec2 first, vec2 second) {
 
 Gathered gather_around(ivec2 pixel, Place own, float depth) {
     ivec2 last = ivec2(frame_size.xy) - 1;
-    ivec2 step = ivec2(frame_full.z);
+    ivec2 block = ivec2(frame_full.z);
     // The offset may lie beyond the pixel: then the block before holds the first of the four.
-    ivec2 first = (pixel - ivec2(frame_offset.xy) + step) / step - 1;
+    ivec2 first = (pixel - ivec2(frame_offset.xy) + block) / block - 1;
     ivec2 second = min(first + 1, last);
     first = clamp(first, ivec2(0), last);
     vec2 share = find_share(vec2(pixel), vec2(full_pixel(first)), vec2(full_pixel(second)));
@@ -97,23 +98,28 @@ Gathered gather_around(ivec2 pixel, Place own, float depth) {
     return sum;
 }
 
-// The nearest coarse pixel that is alike and reflects with what is `missing` (base, layer); x < 0 where there is none.
-ivec2 find_nearest(ivec2 pixel, Place own, float depth, bvec2 missing) {
+// The nearest coarse pixel that is alike, or else the nearest of all, of those that reflect with what is `missing` (base,
+// layer); x < 0 where there is none.
+ivec2 find_nearest(ivec2 pixel, Place own, float depth, bvec2 missing, out bool is_alike) {
     const int REACH = 2;  // coarse pixels
     ivec2 centre = pixel / int(frame_full.z);
     ivec2 nearest = ivec2(-1);
     int nearest2 = 0;
+    is_alike = false;
     for (int i = 0; i < (2 * REACH + 1) * (2 * REACH + 1); ++i) {
         ivec2 coarse = centre + ivec2(i % (2 * REACH + 1), i / (2 * REACH + 1)) - REACH;
         if (any(lessThan(coarse, ivec2(0))) || any(greaterThanEqual(coarse, ivec2(frame_size.xy)))) continue;
         ivec2 away = full_pixel(coarse) - pixel;
         int distance2 = away.x * away.x + away.y * away.y;
-        if (nearest.x >= 0 && distance2 >= nearest2) continue;
         Place found = load_coarse_place(coarse);
         bool fits = found.lit && (!missing.x || found.has_base) && (!missing.y || found.has_layer);
-        if (!fits || !is_similar(own.look, found.look, depth)) continue;
+        bool alike = is_similar(own.look, found.look, depth);
+        bool is_nearer = nearest.x < 0 || distance2 < nearest2;
+        bool is_better = alike == is_alike ? is_nearer : alike;
+        if (!fits || !is_better) continue;
         nearest = coarse;
         nearest2 = distance2;
+        is_alike = alike;
     }
     return nearest;
 }
@@ -122,12 +128,10 @@ ivec2 find_nearest(ivec2 pixel, Place own, float depth, bvec2 missing) {
 void fill_missing(inout Gathered light, ivec2 pixel, Place own, float depth) {
     bvec2 missing = bvec2(own.has_base && light.weights.x == 0.0f, own.has_layer && light.weights.y == 0.0f);
     if (!any(missing)) return;
-    ivec2 nearest = find_nearest(pixel, own, depth, missing);
-    if (nearest.x < 0) {
-        count_event(COUNTER_COARSE_GAP);
-        return;
-    }
-    add(light, nearest, vec2(missing));
+    bool is_alike;
+    ivec2 nearest = find_nearest(pixel, own, depth, missing, is_alike);
+    if (!is_alike) count_event(COUNTER_COARSE_GAP);
+    if (nearest.x >= 0) add(light, nearest, vec2(missing));
 }
 
 Gathered find_light(ivec2 pixel) {
