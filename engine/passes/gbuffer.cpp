@@ -148,9 +148,13 @@ GBuffer GBufferPass::record(const FrameContext& frame, const World& world, const
     return {seen, resolve(frame, seen), std::move(previous)};
 }
 
+Surfaces GBufferPass::take_surfaces(const glm::ivec2& size_px) {
+    return surfaces_.take(fmt::format("{} x {}", size_px.x, size_px.y),
+                          [&] { return SurfaceImages(size_px); });
+}
+
 Surfaces GBufferPass::resolve(const FrameContext& frame, const Picture& seen) {
-    const Surfaces surfaces = surfaces_.take(fmt::format("{} x {}", frame.size_px.x, frame.size_px.y),
-                                             [&] { return SurfaceImages(frame.size_px); });
+    const Surfaces surfaces = take_surfaces(frame.size_px);
     PassRecorder pass = frame.pass("gbuffer/resolve");
     pass.read(UNIT_PASS_A, seen).write(surfaces->stack);
     for (int layer = 0; layer < LAYER_COUNT; ++layer)

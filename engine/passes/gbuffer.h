@@ -52,6 +52,9 @@ class GBufferPass {
     GBuffer record(const FrameContext& frame, const World& world, const CameraRecord& camera,
                    std::optional<Previous<Surfaces>> previous);
 
+    // Memory for surfaces of a picture of this size.
+    Surfaces take_surfaces(const glm::ivec2& size_px);
+
     const GBufferStatistics& statistics() const { return statistics_; }
 
   private:

@@ -51,7 +51,9 @@ std::vector<PlannedPass> list_passes(const DirectPlan& plan) {
 std::vector<PlannedPass> list_passes(const IndirectPlan& plan) {
     const ReusePlan& reuse = plan.reuse;
     const bool samples = plan.keeps_samples;
+    const bool is_coarse = plan.runs && plan.step_px > 1;
     return {
+        {"indirect/surfaces", is_coarse, "some pixels stand for those around them"},
         {"indirect/rays", plan.runs, "a path goes on from each pixel"},
         {"indirect/hits", plan.runs, "and meets surfaces"},
         {"indirect/vertices", plan.runs, "which are lit by light samples"},
@@ -66,6 +68,7 @@ std::vector<PlannedPass> list_passes(const IndirectPlan& plan) {
          "the chosen path samples are traced after all reuse"},
         {"indirect/shade", samples && !reuse.shades_all_samples,
          "the chosen path samples light their pixels"},
+        {"indirect/upsample", is_coarse, "and their light reaches the pixels around them"},
     };
 }
 
@@ -89,12 +92,14 @@ DirectPlan plan_direct(const DirectSettings& settings) {
 IndirectPlan plan_indirect(const IndirectSettings& settings) {
     IndirectPlan plan;
     plan.runs = settings.runs();
+    plan.step_px = 1 << int(settings.resolution);
     plan.bounces = settings.bounces;
     plan.candidate_count = settings.candidates;
     plan.sampling = settings.sampling;
     plan.noise = settings.noise;
     plan.target_weights = glm::vec3(LUMINANCE_WEIGHTS);
     plan.reuse = plan_reuse(settings.reuse, settings.uses_restir(), DebugView::NONE);
+    plan.reuse.step_px = plan.step_px;
     plan.reuse.tests_fresh_samples = false;
     plan.reuse.drops_occluded = false;
     plan.keeps_samples = settings.uses_restir() && plan.reuse.runs();

@@ -26,10 +26,15 @@ struct ReusePlan {
     bool keeps_temporal =
         false;  // the next frame starts from the samples after reuse over time, not over space
     bool tests_chosen_samples = true;  // after all reuse, by a ray
+    int step_px = 1;                   // of the picture, from one pixel with samples to the next
     bool shades_all_samples = false;   // the last spatial step sums the light of all its samples
 
     bool runs() const { return over_time || spatial_steps > 0; }
-    ReuseVariant variant(ReuseRun run) const { return {mis, mis_visibility, final_visibility, run}; }
+    // Rays in the weights leave no question open: then the final visibility changes nothing.
+    ReuseVariant variant(ReuseRun run) const {
+        const FinalVisibility open = traces_in_mis ? FinalVisibility::TRACED : final_visibility;
+        return {mis, traces_in_mis, open, run};
+    }
 };
 
 struct DirectPlan {
@@ -47,6 +52,7 @@ struct DirectPlan {
 struct IndirectPlan {
     bool runs = false;
     bool keeps_samples = false;  // as reservoirs, for reuse; else paths light their pixels at once
+    int step_px = 1;             // > 1: it works on a coarse picture of one pixel in step x step
     int bounces = 1;
     int candidate_count = 1;
     IndirectSampling sampling = IndirectSampling::BRDF;

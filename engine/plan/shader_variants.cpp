@@ -97,6 +97,8 @@ std::vector<ReuseVariant> ReuseVariant::all(bool shades) {
         for (const bool mis_visibility : {false, true}) {
             for (const FinalVisibility visibility :
                  {FinalVisibility::TRACED, FinalVisibility::REUSED, FinalVisibility::AVERAGED}) {
+                if (mis_visibility && (mis == Mis::ONE_OVER_M || visibility != FinalVisibility::TRACED))
+                    continue;
                 for (const ReuseRun run : {ReuseRun::WRITE_RAYS, ReuseRun::MERGE, ReuseRun::MERGE_AND_TEST})
                     result.push_back({mis, mis_visibility, visibility, run});
                 if (shades) result.push_back({mis, mis_visibility, visibility, ReuseRun::MERGE_AND_SHADE});
@@ -248,6 +250,8 @@ std::vector<ShaderFamily> shader_families() {
             family_of<BoilingFilterVariant>(),
             family_of<SpatialVariant>(),
             family_of<ShadeVariant>(),
+            family_of<CoarseSurfacesVariant>(),
+            family_of<UpsampleVariant>(),
             family_of<IndirectRaysVariant>(),
             family_of<PathVerticesVariant>(),
             family_of<PathSamplesVariant>(),

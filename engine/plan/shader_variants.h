@@ -92,7 +92,15 @@ struct SpatialVariant {
     static std::vector<SpatialVariant> all();
 };
 
-// Indirect light. The same for all steps of reuse, but of its own samples.
+// Indirect light. On a coarse picture; both are of the scene for the bugs that tests plant.
+struct CoarseSurfacesVariant : PlainVariant<CoarseSurfacesVariant> {
+    static constexpr const char* PATH = "indirect/surfaces";
+};
+struct UpsampleVariant : PlainVariant<UpsampleVariant> {
+    static constexpr const char* PATH = "indirect/upsample";
+};
+
+// The same for all steps of reuse, but of its own samples.
 struct IndirectTemporalVariant : TemporalVariant {
     static constexpr const char* PATH = "indirect/temporal";
     static std::vector<IndirectTemporalVariant> all();

@@ -7,6 +7,7 @@
 #include "passes/direct/reuse.h"
 #include "passes/direct/shade.h"
 #include "passes/enlarge.h"
+#include "passes/indirect/coarse.h"
 #include "passes/indirect/paths.h"
 #include "passes/indirect/reuse.h"
 #include "passes/indirect/shade.h"
@@ -109,6 +110,26 @@ ReflectedLight Renderer::light_directly(const FrameContext& frame, const GBuffer
 }
 
 ReflectedLight Renderer::light_indirectly(const FrameContext& frame, const GBuffer& gbuffer) {
+    if (frame.plan.indirect.step_px > 1) return light_coarsely(frame, gbuffer);
+    return light_by_paths(frame, gbuffer);
+}
+
+// Samples of another step are no history (SampleMeaning), and so neither are its surfaces.
+ReflectedLight Renderer::light_coarsely(const FrameContext& frame, const GBuffer& gbuffer) {
+    FrameContext coarse = frame;
+    coarse.size_px = coarse_size_px(frame.size_px, frame.plan.indirect.step_px);
+    recorder_.bind_frame_block(coarse_frame_block_);
+    const GBuffer thinned{nullptr, gbuffer_.take_surfaces(coarse.size_px),
+                          find_previous(frame, history_.coarse_surfaces)};
+    thin_surfaces(coarse, gbuffer, *thinned.surfaces);
+    const ReflectedLight light = light_by_paths(coarse, thinned);
+    history_.coarse_surfaces.keep(frame.frame, thinned.surfaces);
+    const ReflectedLight upsampled = upsample(frame, gbuffer, *thinned.surfaces, light);
+    recorder_.bind_frame_block(frame_block_);
+    return upsampled;
+}
+
+ReflectedLight Renderer::light_by_paths(const FrameContext& frame, const GBuffer& gbuffer) {
     const SampleSlot slot{0, 0, frame.plan.indirect.target_weights, {frame.frame, frame.seed, RAY_SHADOW}};
     const Paths paths = trace_paths(frame, gbuffer, slot, find_blue_noise());
     if (!frame.plan.indirect.keeps_samples) return finish_light(frame, gbuffer, slot, paths);

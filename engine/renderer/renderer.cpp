@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "noise/blue_noise.h"
-#include "shared/interface/frame_block.h"
+#include "passes/indirect/coarse.h"
 #include "shared/math/random.h"
 
 namespace tarn {
@@ -46,6 +46,7 @@ Renderer::Renderer(const World& world, const RayTracer& tracer, int width_px, in
       surveyed_materials_(world.material_revision),
       gpu_scene_(world),
       frame_block_("frame/block", sizeof(FrameBlock), BufferUse::DYNAMIC),
+      coarse_frame_block_("frame/coarse_block", sizeof(FrameBlock), BufferUse::DYNAMIC),
       counters_("frame/counters", COUNTER_COUNT * sizeof(std::uint32_t), BufferUse::DEVICE),
       gbuffer_(gpu_scene_) {
     counters_.clear();
@@ -87,7 +88,7 @@ bool Renderer::has_moved(const CameraRecord& camera) const {
     return gpu_scene_.is_changing() || !is_same_view(camera, history_.camera);
 }
 
-void Renderer::upload_frame_block(const FrameInput& input) {
+FrameBlock Renderer::make_frame_block(const FrameInput& input) const {
     const CameraRecord& camera = input.camera;
     FrameBlock block;
     block.frame_camera_position = glm::vec4(camera.position, camera.orthographic ? 1.0f : 0.0f);
@@ -109,7 +110,16 @@ void Renderer::upload_frame_block(const FrameInput& input) {
     block.frame_tables =
         glm::uvec4(gpu_light_tree_.node_count(), gpu_scene_.lights().instance_lookup_first_row(),
                    gpu_scene_.lights().slot_lookup_first_row(), 0u);
+    block.frame_full = glm::uvec4(size_px_, 1u, 0u);
+    block.frame_offset = glm::uvec4(0u);
+    return block;
+}
+
+void Renderer::upload_frame_blocks(const FrameInput& input) {
+    const FrameBlock block = make_frame_block(input);
+    const FrameBlock coarse = make_coarse_block(block, plan_.indirect.step_px);
     frame_block_.upload(0, std::span<const FrameBlock>(&block, 1));
+    coarse_frame_block_.upload(0, std::span<const FrameBlock>(&coarse, 1));
     recorder_.bind_frame_block(frame_block_);
 }
 
@@ -117,7 +127,7 @@ FrameOutput Renderer::render(const FrameInput& input) {
     plan_ = make_plan(survey_, input.settings);
     recorder_.begin();
     if (plan_.direct.light_tree) fit_light_tree();  // before the frame block, which counts its nodes
-    upload_frame_block(input);
+    upload_frame_blocks(input);
     gpu_scene_.bind(recorder_);
 
     RayCounts rays;
@@ -164,6 +174,7 @@ std::map<std::string, std::uint64_t> Renderer::read_counters() const {
             {"bad_reservoirs", values[COUNTER_BAD_RESERVOIR]},
             {"bad_history", values[COUNTER_BAD_HISTORY]},
             {"mis_sums", values[COUNTER_MIS_SUM]},
+            {"coarse_gaps", values[COUNTER_COARSE_GAP]},
             {"rejected_rays", rejected_rays_}};
 }
 

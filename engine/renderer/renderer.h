@@ -22,6 +22,7 @@
 #include "rays/ray_tracer.h"
 #include "renderer/frame_history.h"
 #include "settings/settings.h"
+#include "shared/interface/frame_block.h"
 
 namespace tarn {
 
@@ -98,13 +99,16 @@ class Renderer {
     Values record_frame(const FrameContext& frame, const FrameInput& input);
     ReflectedLight light_directly(const FrameContext& frame, const GBuffer& gbuffer);
     ReflectedLight light_indirectly(const FrameContext& frame, const GBuffer& gbuffer);
+    ReflectedLight light_coarsely(const FrameContext& frame, const GBuffer& gbuffer);
+    ReflectedLight light_by_paths(const FrameContext& frame, const GBuffer& gbuffer);
     ReflectedLight reuse_paths(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,
                                const Samples& fresh);
     Picture show(const FrameContext& frame, const DisplayInput& input, const Picture& radiance,
                  const GBuffer& gbuffer);
     void fit_light_tree();
     const RowBuffer* find_blue_noise();
-    void upload_frame_block(const FrameInput& input);
+    FrameBlock make_frame_block(const FrameInput& input) const;
+    void upload_frame_blocks(const FrameInput& input);
     bool has_moved(const CameraRecord& camera) const;
 
     const World& world_;
@@ -124,6 +128,7 @@ class Renderer {
     std::optional<Table> blue_noise_;  // once settings draw from it
     FrameRecorder recorder_;
     Buffer frame_block_;
+    Buffer coarse_frame_block_;  // of indirect light on a coarse picture
     Buffer counters_;
     GBufferPass gbuffer_;
     FrameHistory history_;

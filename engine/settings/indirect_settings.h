@@ -17,10 +17,14 @@ enum class IndirectSampling { UNIFORM, COSINE, BRDF };
 // Where the random numbers of that direction come from.
 enum class NoiseKind { WHITE, BLUE };
 
+// Of the picture's pixels, along each axis.
+enum class IndirectResolution { FULL, HALF, QUARTER };
+
 struct IndirectSettings {
     IndirectMode mode = IndirectMode::OFF;
     IndirectSampling sampling = IndirectSampling::BRDF;
     NoiseKind noise = NoiseKind::WHITE;
+    IndirectResolution resolution = IndirectResolution::FULL;
     int bounces = 1;     // surfaces that light meets before the one that is seen
     int candidates = 4;  // light candidates at each of them
     ReuseSettings reuse;

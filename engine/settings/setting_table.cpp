@@ -160,6 +160,10 @@ void add_indirect_rows(std::vector<Setting>& table) {
         "time and neighbours",
         &S::mode, {"off", "path", "restir"});
     rows.where(&S::runs)
+        .choose("indirect-resolution",
+                "Pixels that send paths: all, or one of 2 x 2 or 4 x 4; the others take its light where "
+                "surfaces are alike",
+                &S::resolution, {"full", "half", "quarter"})
         .number("indirect-bounces", "", "Surfaces that light meets before the one that is seen", &S::bounces,
                 1, 16)
         .choose("indirect-sampling",

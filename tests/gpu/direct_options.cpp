@@ -215,6 +215,11 @@ TEST(Settings, EachOneChangesThePictureWhereItApplies) {
     const auto scene = test::load_test_scene(test::content_file("cornell"));
     std::vector<RenderSettings> bases(1);
     for (const char* preset : {"balanced", "unbiased"}) bases.push_back(find_preset(preset).settings);
+    for (const bool traces_in_weights : {false, true}) {
+        IndirectSettings& indirect = bases.emplace_back().indirect;
+        indirect.mode = IndirectMode::RESTIR;
+        indirect.reuse.mis_visibility = traces_in_weights;
+    }
     std::vector<Image> pictures;
     for (const RenderSettings& base : bases) pictures.push_back(render_walk(*scene, base));
     for (const Setting& setting : setting_table()) {

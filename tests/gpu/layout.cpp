@@ -228,7 +228,10 @@ TEST_F(BlockLayout, TheFrameBlockHasTheDriversOffsets) {
         {"frame_previous_up", offsetof(FrameBlock, frame_previous_up)},
         {"frame_previous_forward", offsetof(FrameBlock, frame_previous_forward)},
         {"frame_history", offsetof(FrameBlock, frame_history)},
+        {"frame_jitter", offsetof(FrameBlock, frame_jitter)},
         {"frame_tables", offsetof(FrameBlock, frame_tables)},
+        {"frame_full", offsetof(FrameBlock, frame_full)},
+        {"frame_offset", offsetof(FrameBlock, frame_offset)},
     };
     for (const auto& [name, offset] : members) {
         const GLuint index = glGetProgramResourceIndex(program.id(), GL_UNIFORM, name);

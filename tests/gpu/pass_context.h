@@ -20,10 +20,14 @@ class PassContext {
                                              BufferUse::DEVICE)) {}
 
     FrameRecorder& recorder() { return *recorder_; }
+    const Buffer& counters() const { return *counters_; }
+
+    // Mistakes for the shaders of passes that follow.
+    void plant(const Defines& defines) { defines_ = defines; }
 
     FrameContext frame(const glm::ivec2& size_px, const glm::ivec2& output_px) {
-        return {*recorder_, programs_, *tracer_, *counters_, rays_,     plan_,
-                settings_,  defines_,  size_px,  output_px};
+        return {*recorder_, programs_, *tracer_, *counters_, rays_,
+                plan_,      settings_, defines_, size_px,    output_px};
     }
 
     // A picture as if an earlier pass of this frame had written these texels.

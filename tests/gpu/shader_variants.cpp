@@ -65,14 +65,27 @@ TEST_P(ShaderVariants, AllCompile) {
 // What tests plant must compile too, or they would find the wrong fault.
 TEST_P(ShaderVariants, PlantedBugsCompile) {
     if (!GetParam().is_of_scene) return;
-    for (const char* bug :
-         {"TARN_PLANT_DROP_PDF", "TARN_PLANT_DROP_COSINE", "TARN_PLANT_SHIFT_LIGHT",
-          "TARN_PLANT_SKIP_CONFIDENCE", "TARN_PLANT_COUNT_DEAD", "TARN_PLANT_TARGET_AT_NEIGHBOUR",
-          "TARN_PLANT_DROP_NORMALIZATION", "TARN_PLANT_PREVIOUS_NORMAL", "TARN_PLANT_FORGET_LIGHT_PDF",
-          "TARN_PLANT_DROP_PREVIOUS_JACOBIAN", "TARN_PLANT_DROP_FRESH_JACOBIAN",
-          "TARN_PLANT_PRESENT_GEOMETRY", "TARN_PLANT_NO_REMAP", "TARN_PLANT_NAN_HISTORY",
-          "TARN_PLANT_DROP_RECONNECTION_JACOBIAN", "TARN_PLANT_CLAMP_RECONNECTION_JACOBIAN",
-          "TARN_PLANT_COUNT_EMISSION", "TARN_CHECK_MIS"}) {
+    for (const char* bug : {"TARN_PLANT_DROP_PDF",
+                            "TARN_PLANT_DROP_COSINE",
+                            "TARN_PLANT_SHIFT_LIGHT",
+                            "TARN_PLANT_SKIP_CONFIDENCE",
+                            "TARN_PLANT_COUNT_DEAD",
+                            "TARN_PLANT_TARGET_AT_NEIGHBOUR",
+                            "TARN_PLANT_DROP_NORMALIZATION",
+                            "TARN_PLANT_PREVIOUS_NORMAL",
+                            "TARN_PLANT_FORGET_LIGHT_PDF",
+                            "TARN_PLANT_DROP_PREVIOUS_JACOBIAN",
+                            "TARN_PLANT_DROP_FRESH_JACOBIAN",
+                            "TARN_PLANT_PRESENT_GEOMETRY",
+                            "TARN_PLANT_NO_REMAP",
+                            "TARN_PLANT_NAN_HISTORY",
+                            "TARN_PLANT_DROP_RECONNECTION_JACOBIAN",
+                            "TARN_PLANT_CLAMP_RECONNECTION_JACOBIAN",
+                            "TARN_PLANT_COUNT_EMISSION",
+                            "TARN_PLANT_FORGET_OFFSET",
+                            "TARN_PLANT_PRESENT_OFFSET",
+                            "TARN_PLANT_DROP_UPSAMPLE_NORMALIZATION",
+                            "TARN_CHECK_MIS"}) {
         compile(SceneFeatures::all().back().defines() + Defines{bug} + GetParam().variants.front());
     }
 }

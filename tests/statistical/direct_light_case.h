@@ -54,6 +54,7 @@ class DirectLightCase {
     const std::string& name() const { return name_; }
     TestScene& scene() { return *scene_; }
     const CameraRecord& camera() const { return camera_; }
+    const Image& reference() const { return reference_.mean; }
 
     // Blackens the pixels that cannot be compared.
     void clear_left_out(Image& image) const {

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "direct_light_case.h"
+#include "shared/math/colour.h"
 
 namespace tarn::test {
 namespace {
@@ -11,6 +12,7 @@ namespace {
 constexpr int SEEDS = 24;
 constexpr int FIRST_FRAME_SEEDS = 96;
 constexpr int MOVING_FRAMES = 12;
+constexpr int COARSE_SEEDS = 8;
 constexpr std::uint64_t REFERENCE_SPP = 4096;
 // What a test must be able to find in a tile, nine times in ten.
 constexpr double DETECTABLE = 0.03;
@@ -163,6 +165,55 @@ TEST_F(Indirect, MisWeightsSumToOneInEveryPixel) {
     }
 }
 
+// ---- Coarse pictures
+
+// Mean luminance of a picture.
+double find_energy(const Image& image) {
+    const glm::dvec3 weights(LUMINANCE_WEIGHTS);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < image.values.size(); ++i) {
+        sum += weights[int(i % 3)] * image.values[i];
+    }
+    return sum / double(image.values.size() / 3);
+}
+
+// Energy over the reference's, of as many frames as every pixel needs to have its turn, and of several seeds.
+double find_energy_ratio(DirectLightCase& box, const RenderSettings& settings,
+                         const std::vector<std::string>& planted = {}) {
+    constexpr int FRAMES = 16;
+    Renderer renderer(box.scene().world, *box.scene().tracer, WIDTH_PX, HEIGHT_PX, planted);
+    FrameInput input;
+    input.settings = settings;
+    input.camera = box.camera();
+    double sum = 0.0;
+    for (int seed = 0; seed < COARSE_SEEDS; ++seed) {
+        input.seed = std::uint32_t(seed) + 9000u;
+        renderer.reset_history();
+        for (input.frame = 0; input.frame < FRAMES; ++input.frame) {
+            Image image = renderer.read_radiance(renderer.render(input).radiance);
+            box.clear_left_out(image);
+            sum += find_energy(image);
+        }
+    }
+    for (const auto& [name, value] : renderer.read_counters()) {
+        if (name != "coarse_gaps") EXPECT_EQ(value, 0u) << name;
+    }
+    return sum / (FRAMES * COARSE_SEEDS * find_energy(box.reference()));
+}
+
+TEST_F(Indirect, CoarsePicturesKeepTheReferencesEnergy) {
+    for (const IndirectMode mode : {IndirectMode::PATH, IndirectMode::RESTIR}) {
+        for (const IndirectResolution resolution : {IndirectResolution::HALF, IndirectResolution::QUARTER}) {
+            RenderSettings settings = make_settings(mode);
+            settings.indirect.resolution = resolution;
+            const double ratio = find_energy_ratio(find_case(1), settings);
+            fmt::print("mode {}, resolution {}: {:.4f} of the energy\n", int(mode), int(resolution), ratio);
+            EXPECT_GE(ratio, 0.99) << "mode " << int(mode) << ", resolution " << int(resolution);
+            EXPECT_LE(ratio, 1.01) << "mode " << int(mode) << ", resolution " << int(resolution);
+        }
+    }
+}
+
 // ---- Planted bugs
 
 TEST_F(Indirect, MistakesOfTheReconnectionAreFound) {
@@ -178,6 +229,12 @@ TEST_F(Indirect, MistakesOfTheReconnectionAreFound) {
 TEST_F(Indirect, EmissionThatCountsTwiceIsFound) {
     const char* bug = "TARN_PLANT_COUNT_EMISSION";
     EXPECT_FALSE(run(make_settings(IndirectMode::PATH, 2), bug, 0, FIRST_FRAME_SEEDS, {bug}).passes);
+}
+
+TEST_F(Indirect, LightOfACoarsePictureThatIsNotNormalisedIsFound) {
+    RenderSettings settings = make_settings(IndirectMode::PATH);
+    settings.indirect.resolution = IndirectResolution::QUARTER;
+    EXPECT_LT(find_energy_ratio(find_case(1), settings, {"TARN_PLANT_DROP_UPSAMPLE_NORMALIZATION"}), 0.99);
 }
 
 }  // namespace

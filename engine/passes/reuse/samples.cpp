@@ -3,8 +3,8 @@
 namespace tarn {
 
 SampleMeaning meaning_of(const ReusePlan& plan, const glm::vec3& target_weights) {
-    return {target_weights,      plan.mis, plan.traces_in_mis, plan.final_visibility, plan.drops_occluded,
-            plan.filters_boiling};
+    return {target_weights,       plan.mis,    plan.traces_in_mis, plan.final_visibility, plan.drops_occluded,
+            plan.filters_boiling, plan.step_px};
 }
 
 std::optional<Previous<KeptSamples>> find_previous(const FrameContext& frame, const ReusePlan& plan,

@@ -36,6 +36,7 @@ struct SampleMeaning {
     FinalVisibility final_visibility;
     bool drops_occluded;
     bool filters_boiling;
+    int step_px;  // of which pixels they are
 
     bool operator==(const SampleMeaning&) const = default;
 };

@@ -11,7 +11,7 @@ Samples reuse_over_space(const FrameContext& frame, const ReuseShaders& shaders,
     kernel.rays_per_pixel =
         reuse_ray_count(std::uint32_t(plan.mis), plan.mis_visibility,
                         plan.final_visibility != FinalVisibility::TRACED, std::uint32_t(plan.neighbours));
-    kernel.constants.radius_px = float(settings.radius_px);
+    kernel.constants.radius_px = float(settings.radius_px) / float(plan.step_px);
     kernel.constants.iteration = std::uint32_t(iteration);
     kernel.constants.mirror = settings.mirror ? 1u : 0u;
     return run_reuse_step(frame, kernel, input);
