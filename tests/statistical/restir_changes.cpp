@@ -78,12 +78,13 @@ class LightStage {
         tracer_->update(world_);
     }
 
-    TileReference render_truth() {
+    // Light of so many bounces; 1: direct light.
+    TileReference render_truth(int bounces) {
         ReferenceSettings settings;
         settings.width = WIDTH_PX;
         settings.height = HEIGHT_PX;
         settings.camera = camera_;
-        settings.direct_only = true;
+        settings.bounces = bounces;
         settings.spp = 2048;
         settings.seed = 5;
         const ReferenceResult result = render_reference(world_, *tracer_, settings);
@@ -112,7 +113,7 @@ class RestirChanges : public testing::Test {
         Renderer renderer(stage_.world_, *stage_.tracer_, WIDTH_PX, HEIGHT_PX, planted);
         TileSamples next(WIDTH_PX, HEIGHT_PX, TILE_PX), later(WIDTH_PX, HEIGHT_PX, TILE_PX);
         TileReference truth;
-        for (int seed = 0; seed < (planted.empty() ? SEEDS : LATER_SEEDS); ++seed) {
+        for (int seed = 0; seed < (planted.empty() ? seeds_ : LATER_SEEDS); ++seed) {
             input_.seed = std::uint32_t(seed) + 500u;
             input_.frame = 0;
             prepare();
@@ -123,7 +124,7 @@ class RestirChanges : public testing::Test {
             change();
             stage_.update();
             renderer.update();
-            if (seed == 0) truth = stage_.render_truth();
+            if (seed == 0) truth = stage_.render_truth(bounces());
             next.add(renderer.read_radiance(renderer.render(input_).radiance));
             if (seed >= LATER_SEEDS) continue;
             ++input_.frame;
@@ -152,12 +153,33 @@ class RestirChanges : public testing::Test {
                 if (left == 0) samples.add(renderer.read_radiance(output.radiance));
             }
         }
-        return report("moving camera", samples.test(stage_.render_truth(), SIGNIFICANCE));
+        return report("moving camera", samples.test(stage_.render_truth(bounces()), SIGNIFICANCE));
     }
 
     static TileTest report(const char* when, const TileTest& test) {
         fmt::print("{}: {}\n", when, describe(test));
         return test;
+    }
+
+    void use_indirect_light() {
+        input_.settings.indirect.mode = IndirectMode::RESTIR;
+        input_.settings.indirect.reuse.mis_visibility = true;
+        input_.settings.indirect.reuse.radius_px = 10.0;
+        seeds_ = 2 * LATER_SEEDS;
+    }
+    int bounces() const { return input_.settings.indirect.runs() ? 2 : 1; }
+
+    // Twenty lamps that all but go out: what old path samples remember of them is far more than what is left.
+    void run_dimming(const std::vector<std::string>& planted) {
+        const auto dim_all = [&](float factor) {
+            for (int i = 0; i < 20; ++i) stage_.dim(i, factor);
+        };
+        run(
+            [&] {
+                stage_.show(0, 20);
+                dim_all(4.0f);
+            },
+            [&] { dim_all(0.05f); }, planted);
     }
 
     void expect_both_pass() const {
@@ -170,6 +192,7 @@ class RestirChanges : public testing::Test {
     std::unique_ptr<Context> context_;
     LightStage stage_;
     FrameInput input_;
+    int seeds_ = SEEDS;
     TileTest next_;
     TileTest later_;
 };
@@ -207,6 +230,18 @@ TEST_F(RestirChanges, OnesThatMoveAndDimInOneFrameAreFollowed) {
 // noisier.
 TEST_F(RestirChanges, NegativeControlIndicesTakenForIdentitiesAreFound) {
     run([&] { stage_.show(0, 100); }, [&] { stage_.show(50, 100); }, {"TARN_PLANT_NO_REMAP"});
+    EXPECT_FALSE(next_.passes);
+}
+
+TEST_F(RestirChanges, IndirectLightOfLampsThatGoOutIsGoneInTheNextFrame) {
+    use_indirect_light();
+    run_dimming({});
+    expect_both_pass();
+}
+
+TEST_F(RestirChanges, NegativeControlIndirectLightThatIsRememberedIsFound) {
+    use_indirect_light();
+    run_dimming({"TARN_PLANT_STALE_LIGHT"});
     EXPECT_FALSE(next_.passes);
 }
 

@@ -1,41 +1,7 @@
-// Light samples in the last frame: what its lights were like, and the shift in time, which keeps a sample's light and
-// its place on it. Without TARN_LIGHT_HISTORY no light ever changed.
+// Light samples in the last frame: the shift in time, which keeps a sample's light and its place on it.
+#include "lib/previous_lights.glsl"
 
 #ifdef TARN_LIGHT_HISTORY
-bool is_in_light_table(SAMPLE drawn) { return drawn.light < LIGHT_ENVIRONMENT; }
-
-uint remap_light(uint light, bool to_previous) {
-#ifdef TARN_PLANT_NO_REMAP
-    if (!to_previous) return light;
-#endif
-    if (frame_history.z == INVALID_INDEX) return light;
-    uvec4 row = fetch_light_row(frame_history.z + light);
-    return to_previous ? row.x : row.y;
-}
-
-// As the last frame knew it: the light's instance is the last frame's, with its vertices and its material, and its
-// emission map follows the last frame's rows.
-Light load_previous_light(uint light) {
-    uint row = frame_history.y + light * LIGHT_ROWS;
-    Light previous = unpack_light(fetch_light_row(row), fetch_light_row(row + 1u), fetch_light_row(row + 2u),
-                                  fetch_light_row(row + 3u));
-    previous.instance += frame_history.x;
-    if (SCENE_HAS_TEXTURED_LIGHTS && is_triangle(previous) && (previous.flags & LIGHT_TEXTURED) != 0u) {
-        previous.range = uintBitsToFloat(floatBitsToUint(previous.range) + frame_history.y);
-    }
-    return previous;
-}
-
-IncidentLight load_previous_incident_light(SAMPLE drawn, vec3 point) {
-    if (!is_in_light_table(drawn)) return load_incident_light(drawn, point);
-    return incident_from_light(load_previous_light(drawn.light), drawn.uv, point);
-}
-
-float load_previous_light_error(SAMPLE drawn) {
-    if (!is_in_light_table(drawn)) return 0.0f;
-    return light_error(load_previous_light(drawn.light));
-}
-
 // A sample of this frame as the last one would have known it, and back; no sample where the light was not, or is no
 // more.
 SAMPLE move_to_previous(SAMPLE drawn) {
@@ -56,10 +22,6 @@ float move_jacobian(SAMPLE present, SAMPLE previous) {
     return ratio_or_zero(triangle_area(now), triangle_area(load_previous_light(previous.light)));
 }
 #else
-IncidentLight load_previous_incident_light(SAMPLE drawn, vec3 point) {
-    return load_incident_light(drawn, point);
-}
-float load_previous_light_error(SAMPLE drawn) { return load_light_error(drawn); }
 SAMPLE move_to_previous(SAMPLE drawn) { return drawn; }
 SAMPLE move_to_present(SAMPLE drawn) { return drawn; }
 float move_jacobian(SAMPLE present, SAMPLE previous) { return 1.0f; }

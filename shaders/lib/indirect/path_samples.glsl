@@ -141,9 +141,43 @@ float shift_jacobian(Receiver from, Receiver to, SAMPLE drawn) {
 }
 
 #ifdef TARN_PREVIOUS_FRAME
-// Instances keep their index; where they were is known by it.
+#include "lib/previous_lights.glsl"
+
+// A sample of this frame as the last one would have known it, and back. Instances keep their index; where they were is
+// known by it. Its light is what the lamp sends now, or sent then: what goes out is dark at once in old samples too. The
+// way from the lamp to the place is not traced again.
+#if defined(TARN_LIGHT_HISTORY) && !defined(TARN_PLANT_STALE_LIGHT)
+SAMPLE relight(SAMPLE drawn, IncidentLight before, IncidentLight after, uint light, vec3 normal) {
+    float scale = ratio_or_zero(dot(drawn.path.incident, vec3(1.0f)), dot(before.value, vec3(1.0f)));
+    bool is_lit = light != INVALID_INDEX && dot(normal, after.direction) > 0.0f;
+    drawn.path.incident = is_lit ? after.value * scale : vec3(0.0f);
+    drawn.path.incident_direction = after.direction;
+    drawn.path.light.light = light;
+    return drawn;
+}
+
+SAMPLE move_to_present(SAMPLE drawn) {
+    LightSample then = drawn.path.light;
+    if (!is_sample(drawn) || !is_in_light_table(then)) return drawn;
+    LightSample now = LightSample(remap_light(then.light, false), then.uv);
+    return relight(drawn, load_previous_incident_light(then, load_previous_place(drawn).position),
+                   load_incident_light(now, drawn.place.position), now.light, drawn.place.normal);
+}
+
+SAMPLE move_to_previous(SAMPLE drawn) {
+    LightSample now = drawn.path.light;
+    if (!is_sample(drawn) || !is_in_light_table(now)) return drawn;
+    LightSample then = LightSample(remap_light(now.light, true), now.uv);
+    PathPlace place = load_previous_place(drawn);
+    if (then.light == INVALID_INDEX)
+        return relight(drawn, no_incident_light(), no_incident_light(), INVALID_INDEX, place.normal);
+    return relight(drawn, load_incident_light(now, drawn.place.position),
+                   load_previous_incident_light(then, place.position), then.light, place.normal);
+}
+#else
 SAMPLE move_to_previous(SAMPLE drawn) { return drawn; }
 SAMPLE move_to_present(SAMPLE drawn) { return drawn; }
+#endif
 
 // Area of the sample's triangle now over then.
 float area_ratio(SAMPLE drawn) {

@@ -29,6 +29,7 @@ PathSample further_sample(PathState s) {
     PathSample further = s.place;
     further.incident_direction = s.further_direction;
     further.incident = s.further;
+    further.light = no_light_sample();
     return further;
 }
 

@@ -79,6 +79,7 @@ void keep_place(inout PathState s, HitRecord hit, Receiver r, NextEvent light) {
     s.place.material = r.point.material;
     s.place.incident_direction = light.incident.direction;
     s.place.incident = light.incident.value * light.contribution_weight;
+    s.place.light = light.drawn;
 }
 
 // Where the path goes on; adds that step to the throughput.

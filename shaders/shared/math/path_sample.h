@@ -6,11 +6,13 @@
 // no texture is read again. (The reconnection vertex of Lin et al., "Generalized Resampled Importance
 // Sampling", 2022, section 7; Ouyang et al., "ReSTIR GI", 2021, keep a radiance instead, which is right for
 // Lambert alone.) Normal, direction and material are rounded to 16 bits once, before anything is computed
-// from them.
+// from them. Which light it comes from is known, so that a lamp that is dimmed or goes out does so in old
+// samples too.
 #pragma once
 
 #include "shared/dialect.h"
 #include "shared/math/brdf.h"
+#include "shared/math/light_sample.h"
 #include "shared/math/packing.h"
 
 SHARED_BEGIN
@@ -23,6 +25,7 @@ struct PathSample {
     SurfaceMaterial material;
     vec3 incident_direction;  // unit, from the place towards where its light comes from
     vec3 incident;            // that light over the density of its direction, visibility included
+    LightSample light;        // where it comes from; none: from another surface
 };
 
 CONSTANT uint PATH_BACK_FACE = 0x80000000u;
@@ -39,21 +42,30 @@ FN PathSample no_path_sample() {
     none.material.alpha = 1.0f;
     none.incident_direction = vec3(0.0f, 0.0f, 1.0f);
     none.incident = vec3(0.0f);
+    none.light = no_light_sample();
     return none;
 }
 
 // ---- Packing
 // ------------------------------------------------------------------------------------------------------
 
-// A unit vector in one word, to within 1e-4.
-FN uint pack_direction(vec3 direction) {
-    vec2 p = encode_octahedral(direction);
+// A place in [-1, 1]^2 in one word.
+FN uint pack_square(vec2 p) {
     return packUnorm2x16(vec2(0.5f + 0.5f * p.x, 0.5f + 0.5f * p.y));
 }
 
-FN vec3 unpack_direction(uint word) {
+FN vec2 unpack_square(uint word) {
     vec2 p = unpackUnorm2x16(word);
-    return decode_octahedral(vec2(2.0f * p.x - 1.0f, 2.0f * p.y - 1.0f));
+    return vec2(2.0f * p.x - 1.0f, 2.0f * p.y - 1.0f);
+}
+
+// A unit vector in one word, to within 1e-4.
+FN uint pack_direction(vec3 direction) {
+    return pack_square(encode_octahedral(direction));
+}
+
+FN vec3 unpack_direction(uint word) {
+    return decode_octahedral(unpack_square(word));
 }
 
 // A material in one row; of the width its root is kept, the roughness.
@@ -85,9 +97,9 @@ FN uvec3 pack_path_head(PathSample s) {
 
 FN void pack_path_rows(PathSample s, OUT(uvec4) place, OUT(uvec4) material, OUT(uvec4) light) {
     place = uvec4(floatBitsToUint(s.barycentrics.x), floatBitsToUint(s.barycentrics.y),
-                  pack_direction(s.incident_direction), 0u);
+                  pack_direction(s.incident_direction), s.light.light);
     material = pack_surface_material(s.material);
-    light = pack_row(s.incident, 0u);
+    light = pack_row(s.incident, pack_square(s.light.uv));
 }
 
 FN PathSample unpack_path_sample(uvec3 head, uvec4 place, uvec4 material, uvec4 light) {
@@ -99,6 +111,8 @@ FN PathSample unpack_path_sample(uvec3 head, uvec4 place, uvec4 material, uvec4 
     s.incident_direction = unpack_direction(place.z);
     s.material = unpack_surface_material(material);
     s.incident = row_xyz(light);
+    s.light.light = place.w;
+    s.light.uv = unpack_square(light.w);
     return s;
 }
 
