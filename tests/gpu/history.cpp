@@ -162,6 +162,29 @@ TEST_F(History, WeightsOverTimeSumToOne) {
     }
 }
 
+RenderSettings indirect_settings(IndirectResolution resolution) {
+    RenderSettings settings;
+    settings.direct.mode = DirectMode::RIS;
+    settings.indirect.mode = IndirectMode::RESTIR;
+    settings.indirect.resolution = resolution;
+    return settings;
+}
+
+TEST_F(History, PathSamplesOfAnotherResolutionAreNoPast) {
+    using enum IndirectResolution;
+    for (const IndirectResolution before : {FULL, HALF, QUARTER}) {
+        for (const IndirectResolution now : {FULL, HALF, QUARTER}) {
+            Stage stage(make_moving_things(0.02, lambert_material(glm::vec3(0.5f))));
+            stage.render_frames(0, 2, indirect_settings(before));
+            stage.move_to(3);
+            EXPECT_EQ(are_same_bits(stage.render(3, indirect_settings(now)),
+                                    stage.render_fresh(3, indirect_settings(now))),
+                      before != now)
+                << int(before) << " to " << int(now);
+        }
+    }
+}
+
 // The tracer keeps the geometry of one moment before the present. Modes that would ask for an older one start
 // anew.
 TEST_F(History, GeometryThatTheTracerHasForgottenIsNoPast) {

@@ -98,28 +98,28 @@ Gathered gather_around(ivec2 pixel, Place own, float depth) {
     return sum;
 }
 
+// Offsets in coarse pixels, the nearest first.
+const int SPIRAL_LENGTH = 25;
+const ivec2 SPIRAL[SPIRAL_LENGTH] = ivec2[SPIRAL_LENGTH](
+    ivec2(0, 0), ivec2(1, 0), ivec2(0, 1), ivec2(-1, 0), ivec2(0, -1), ivec2(1, 1), ivec2(-1, 1),
+    ivec2(-1, -1), ivec2(1, -1), ivec2(2, 0), ivec2(0, 2), ivec2(-2, 0), ivec2(0, -2), ivec2(2, 1),
+    ivec2(1, 2), ivec2(-1, 2), ivec2(-2, 1), ivec2(-2, -1), ivec2(-1, -2), ivec2(1, -2), ivec2(2, -1),
+    ivec2(2, 2), ivec2(-2, 2), ivec2(-2, -2), ivec2(2, -2));
+
 // The nearest coarse pixel that is alike, or else the nearest of all, of those that reflect with what is `missing` (base,
 // layer); x < 0 where there is none.
 ivec2 find_nearest(ivec2 pixel, Place own, float depth, bvec2 missing, out bool is_alike) {
-    const int REACH = 2;  // coarse pixels
-    ivec2 centre = pixel / int(frame_full.z);
+    ivec2 block = ivec2(frame_full.z);
+    ivec2 centre = (pixel - ivec2(frame_offset.xy) + block / 2) / block;
     ivec2 nearest = ivec2(-1);
-    int nearest2 = 0;
     is_alike = false;
-    for (int i = 0; i < (2 * REACH + 1) * (2 * REACH + 1); ++i) {
-        ivec2 coarse = centre + ivec2(i % (2 * REACH + 1), i / (2 * REACH + 1)) - REACH;
+    for (int i = 0; i < SPIRAL_LENGTH && !is_alike; ++i) {
+        ivec2 coarse = centre + SPIRAL[i];
         if (any(lessThan(coarse, ivec2(0))) || any(greaterThanEqual(coarse, ivec2(frame_size.xy)))) continue;
-        ivec2 away = full_pixel(coarse) - pixel;
-        int distance2 = away.x * away.x + away.y * away.y;
         Place found = load_coarse_place(coarse);
         bool fits = found.lit && (!missing.x || found.has_base) && (!missing.y || found.has_layer);
-        bool alike = is_similar(own.look, found.look, depth);
-        bool is_nearer = nearest.x < 0 || distance2 < nearest2;
-        bool is_better = alike == is_alike ? is_nearer : alike;
-        if (!fits || !is_better) continue;
-        nearest = coarse;
-        nearest2 = distance2;
-        is_alike = alike;
+        is_alike = fits && is_similar(own.look, found.look, depth);
+        if (is_alike || (fits && nearest.x < 0)) nearest = coarse;
     }
     return nearest;
 }
