@@ -105,8 +105,8 @@ class PassRecorder {
 
     // Runs a compute shader of 8 x 8 groups once per pixel.
     void dispatch(const Program& program, const glm::ivec2& size_px);
-    // Draws the batches of indirect `commands` (as glMultiDrawElementsIndirect reads them), indexed by `vertices`.
-    // Depth is reversed: the greater one is nearer. Row 0 of the target is on top.
+    // Draws the batches of indirect `commands` (as glMultiDrawElementsIndirect reads them), indexed by
+    // `vertices`. Depth is reversed: the greater one is nearer. Row 0 of the target is on top.
     void draw(const Program& program, const VertexArray& vertices, const Buffer& commands,
               const std::vector<DrawBatch>& batches);
     // Runs work of the CPU over buffers that it shares with GL: waits for the device before, and is timed

@@ -16,8 +16,8 @@ struct TriangleRange {
 };
 
 // The ranges whose bounds meet the camera's frustum, in instance order; neighbouring clusters are joined.
-// Conservative: nothing visible is left out, also where the picture is moved by up to `margin` of its half width and
-// half height.
+// Conservative: nothing visible is left out, also where the picture is moved by up to `margin` of its half
+// width and half height.
 std::vector<TriangleRange> find_visible_ranges(const World& world, const CameraRecord& camera,
                                                const glm::vec2& margin = glm::vec2(0.0f));
 

@@ -1,5 +1,5 @@
-// The last pass of a frame that is shown: radiance, or another view of it, as display-encoded colours, and from
-// there to a window.
+// The last pass of a frame that is shown: radiance, or another view of it, as display-encoded colours, and
+// from there to a window.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -26,8 +26,8 @@ std::string list_display_views();
 // The view of that name. Throws Error that lists the names.
 DisplayView parse_display_view(const std::string& name);
 
-// A view of the frame, RGBA8 at its output size, row 0 on top. `radiance` has that size too. Radiance and emission are
-// exposed and run through shared/math/display.h, as PNG files are.
+// A view of the frame, RGBA8 at its output size, row 0 on top. `radiance` has that size too. Radiance and
+// emission are exposed and run through shared/math/display.h, as PNG files are.
 Picture show_frame(const FrameContext& frame, DisplayView view, const Picture& radiance,
                    const GBuffer& gbuffer, const Exposure& exposure);
 

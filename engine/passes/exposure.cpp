@@ -10,8 +10,7 @@ namespace tarn {
 Exposure find_exposure(const FrameContext& frame, const Picture& radiance, const ExposureInput& input,
                        const std::optional<Previous<Exposure>>& previous) {
     const glm::ivec2 one_group(8, 8);
-    const Exposure exposure =
-        frame.recorder.take_rows("exposure", sizeof(glm::uvec4), BufferUse::DEVICE);
+    const Exposure exposure = frame.recorder.take_rows("exposure", sizeof(glm::uvec4), BufferUse::DEVICE);
     ExposureConstants constants;
     constants.step_share = float(1.0 - std::exp(-input.elapsed_s / EXPOSURE_TIME_S));
     constants.fixed_ev = input.fixed_ev.value_or(0.0f);

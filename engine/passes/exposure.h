@@ -17,9 +17,10 @@ struct ExposureInput {
     double elapsed_s = 1.0 / 60.0;  // since the last frame: how far an exposure that follows may go
 };
 
-// Automatic: the EV that maps the log-average luminance to middle grey, as auto_exposure_ev (core/display.h) does
-// over all pixels; from `previous` it gets 63 % of the way there in EXPOSURE_TIME_S, in stops, so that it neither
-// jumps nor flickers. Without `previous` it is there at once. The same pictures give the same bits.
+// Automatic: the EV that maps the log-average luminance to middle grey, as auto_exposure_ev (core/display.h)
+// does over all pixels; from `previous` it gets 63 % of the way there in EXPOSURE_TIME_S, in stops, so that
+// it neither jumps nor flickers. Without `previous` it is there at once. The same pictures give the same
+// bits.
 Exposure find_exposure(const FrameContext& frame, const Picture& radiance, const ExposureInput& input,
                        const std::optional<Previous<Exposure>>& previous);
 

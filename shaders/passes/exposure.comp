@@ -16,7 +16,8 @@ layout(std430, binding = 0) writeonly buffer Exposure { uvec4 out_exposure; };
 
 const int GRID = 64;
 const int BINS = 256;
-const float STOPS_BELOW_ONE = 64.0f;  // the first bin begins there; darker counts in it, as brighter in the last
+const float STOPS_BELOW_ONE =
+    64.0f;  // the first bin begins there; darker counts in it, as brighter in the last
 const float BINS_PER_STOP = 2.0f;
 const float FRACTION = 4096.0f;  // of a stop: the histogram's sums are whole numbers of it
 

@@ -1,4 +1,5 @@
-// Rays through other places of a pixel than its centre: raster and rays move together, and nothing is lost at the edges.
+// Rays through other places of a pixel than its centre: raster and rays move together, and nothing is lost at
+// the edges.
 #include <gtest/gtest.h>
 
 #include "renderer/renderer.h"

@@ -14,7 +14,7 @@ ShadeSource source_of(const ShadeInput& input) {
 }  // namespace
 
 ReflectedLight shade_direct(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,
-                   const ShadeInput& input, const ReflectedLight& earlier) {
+                            const ShadeInput& input, const ReflectedLight& earlier) {
     const DirectPlan& plan = frame.plan.direct;
     const ShadeVariant variant{source_of(input), plan.view, plan.targets.size() > 1, bool(earlier)};
     const ReflectedLight light = earlier ? earlier : take_reflected_light(frame, "direct/light");

@@ -19,6 +19,6 @@ struct ShadeInput {
 // The light of this slot's samples, added to `earlier` slots' of this frame, which is no more; none for the
 // first slot.
 ReflectedLight shade_direct(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,
-                   const ShadeInput& input, const ReflectedLight& earlier);
+                            const ShadeInput& input, const ReflectedLight& earlier);
 
 }  // namespace tarn

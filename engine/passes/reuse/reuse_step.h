@@ -15,7 +15,7 @@ struct ReuseInput {
     const GBuffer& gbuffer;
     const SampleSlot& slot;
     const Samples& samples;
-    bool tests_samples = false;      // write the rays that test the merged samples
+    bool tests_samples = false;             // write the rays that test the merged samples
     const ReflectedLight* light = nullptr;  // write what all merged samples send to the viewer
 };
 

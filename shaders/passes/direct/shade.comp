@@ -47,8 +47,8 @@ vec3 sample_colour(LightSample chosen) {
 BrdfValue chosen_light(ivec2 pixel, Receiver receiver) {
     SampleReservoir r = load_reservoir(reservoirs, pixel);
     float visible = load_visibility(pixel, r.state);
-    BrdfValue light = scale_parts(reflect_sample(receiver, r.chosen),
-                                  vec3(r.state.contribution_weight * visible));
+    BrdfValue light =
+        scale_parts(reflect_sample(receiver, r.chosen), vec3(r.state.contribution_weight * visible));
 #ifdef TARN_SHOW_VISIBILITY
     light = BrdfValue(vec3(0.0f), vec3(holds_sample(r) ? visible : 0.0f));
 #endif

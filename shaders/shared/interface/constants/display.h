@@ -6,7 +6,7 @@
 SHARED_BEGIN
 
 PASS_CONSTANTS(DisplayConstants) {
-    uint width_px;   // of the picture that is shown
+    uint width_px;  // of the picture that is shown
     uint height_px;
 };
 
