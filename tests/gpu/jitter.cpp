@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/renderer.h"
+#include "shared/math/random.h"
 #include "support/on_context.h"
 #include "support/test_scenes.h"
 
