@@ -11,6 +11,11 @@ namespace {
 // in the next frame.
 constexpr double PRESET_RADIUS_PX = 16.0;
 
+// Path samples are reused by the rules of light samples, where indirect light is on.
+void reuse_paths_alike(RenderSettings& settings) {
+    settings.indirect.reuse = settings.direct.reuse;
+}
+
 RenderSettings fast_settings() {
     RenderSettings settings;
     DirectSettings& s = settings.direct;
@@ -24,6 +29,8 @@ RenderSettings fast_settings() {
     s.reuse.final_visibility = FinalVisibility::AVERAGED;
     s.reuse.shade = SampleShading::ALL;
     s.reuse.age_cap = 30;
+    reuse_paths_alike(settings);
+    settings.indirect.resolution = IndirectResolution::HALF;
     return settings;
 }
 
@@ -39,6 +46,7 @@ RenderSettings balanced_settings() {
     s.reuse.feedback = false;
     s.reuse.mis = Mis::PAIRWISE;
     s.reuse.age_cap = 30;
+    reuse_paths_alike(settings);
     return settings;
 }
 
@@ -57,6 +65,7 @@ RenderSettings unbiased_settings() {
     s.reuse.mis_visibility = true;
     s.reuse.shade = SampleShading::ALL;
     s.reuse.age_cap = 0;
+    reuse_paths_alike(settings);
     return settings;
 }
 

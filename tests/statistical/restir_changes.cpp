@@ -126,7 +126,7 @@ class RestirChanges : public testing::Test {
             renderer.update();
             if (seed == 0) truth = stage_.render_truth(bounces());
             next.add(renderer.read_radiance(renderer.render(input_).radiance));
-            if (seed >= LATER_SEEDS) continue;
+            if (seed >= later_seeds_) continue;
             ++input_.frame;
             for (int i = 1; i < LATER_FRAMES; ++i, ++input_.frame) renderer.render(input_);
             later.add(renderer.read_radiance(renderer.render(input_).radiance));
@@ -161,11 +161,14 @@ class RestirChanges : public testing::Test {
         return test;
     }
 
+    // Direct light without history: it would be the noisier part of the next frame.
     void use_indirect_light() {
+        input_.settings.direct.mode = DirectMode::RIS;
         input_.settings.indirect.mode = IndirectMode::RESTIR;
         input_.settings.indirect.reuse.mis_visibility = true;
         input_.settings.indirect.reuse.radius_px = 10.0;
-        seeds_ = 2 * LATER_SEEDS;
+        seeds_ = 5 * LATER_SEEDS;
+        later_seeds_ = 2 * LATER_SEEDS;
     }
     int bounces() const { return input_.settings.indirect.runs() ? 2 : 1; }
 
@@ -193,6 +196,7 @@ class RestirChanges : public testing::Test {
     LightStage stage_;
     FrameInput input_;
     int seeds_ = SEEDS;
+    int later_seeds_ = LATER_SEEDS;
     TileTest next_;
     TileTest later_;
 };
