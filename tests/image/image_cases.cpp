@@ -56,7 +56,7 @@ std::vector<ImageSequence> list_sequences() {
     add("rectangle_over_plane", "main", 2.0f, {1}, NOISY);
     add("many_lights", "main", 0.5f, {1}, NOISY);
     list.push_back({"cornell", "main", "reference", 1.5f, {1}, PATH_TRACED});
-    for (const char* method : {"path", "restir-gi"}) {
+    for (const char* method : {"path", "restir_gi"}) {
         list.push_back({"cornell", "main", method, 1.5f, {1, 16}, RESAMPLED});
     }
     for (const char* preset : {"balanced", "unbiased"}) {
@@ -84,7 +84,7 @@ RenderSettings settings_of(const std::string& method) {
     RenderSettings settings;
     settings.direct.mode = method == "uniform" ? DirectMode::UNIFORM : DirectMode::RIS;
     if (method == "path") settings.indirect.mode = IndirectMode::PATH;
-    if (method == "restir-gi") settings.indirect.mode = IndirectMode::RESTIR;
+    if (method == "restir_gi") settings.indirect.mode = IndirectMode::RESTIR;
     return settings;
 }
 
