@@ -93,8 +93,8 @@ void add_weight_rows(SettingRows<Part>& rows) {
                 &S::mis, {"1/M", "1/Z", "balance", "pairwise"})
         .toggle(
             "mis-visibility",
-            "restir: trace visibility in the weights, which makes 1/Z, balance and pairwise unbiased, also "
-            "while things move",
+            "restir: trace visibility in the weights, which makes 1/Z, balance and pairwise unbiased; direct "
+            "light also while things move",
             &S::mis_visibility)
         .choose("final-visibility",
                 "restir: how the visibility of the sample that lights the pixel is known: traced at the end, "

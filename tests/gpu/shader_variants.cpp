@@ -83,6 +83,7 @@ TEST_P(ShaderVariants, PlantedBugsCompile) {
                             "TARN_PLANT_CLAMP_RECONNECTION_JACOBIAN",
                             "TARN_PLANT_COUNT_EMISSION",
                             "TARN_PLANT_STALE_LIGHT",
+                            "TARN_PLANT_FORGET_SKY_SHARE_OF_PATHS",
                             "TARN_PLANT_FORGET_OFFSET",
                             "TARN_PLANT_PRESENT_OFFSET",
                             "TARN_PLANT_DROP_UPSAMPLE_NORMALIZATION",

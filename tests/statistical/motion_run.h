@@ -53,7 +53,9 @@ class MotionTest : public OnContext<> {
         const auto tracer = create_embree_tracer(world);
         const double aspect = double(WIDTH_PX) / HEIGHT_PX;
         const CameraRecord camera = look_at(world, moving.camera_ws, moving.target_ws, 45.0, aspect);
-        TileReference truth = render_truth(world, *tracer, camera);
+        const IndirectSettings indirect = methods.front().settings(LAST_FRAME).indirect;  // alike for all
+        TileReference truth =
+            render_truth(world, *tracer, camera, indirect.runs() ? 1 + indirect.bounces : 1);
         const std::set<std::uint32_t> left_out = find_silhouettes(world, *tracer, camera);
         for (Image* image : {&truth.mean, &truth.variance}) clear(*image, left_out);
         std::vector<Runner> runners;
@@ -108,13 +110,13 @@ class MotionTest : public OnContext<> {
     }
 
   private:
-    static TileReference render_truth(const World& world, const RayTracer& tracer,
-                                      const CameraRecord& camera) {
+    static TileReference render_truth(const World& world, const RayTracer& tracer, const CameraRecord& camera,
+                                      int bounces) {
         ReferenceSettings settings;
         settings.width = WIDTH_PX;
         settings.height = HEIGHT_PX;
         settings.camera = camera;
-        settings.direct_only = true;
+        settings.bounces = bounces;
         settings.spp = 4096;
         settings.seed = 5;
         const ReferenceResult result = render_reference(world, tracer, settings);
@@ -156,7 +158,8 @@ class MotionTest : public OnContext<> {
             renderer_->update();
             if (frame == 0) renderer_->reset_history();
             const RenderSettings settings = method_.settings(frame);
-            if (!settings.direct.reuses() && frame != LAST_FRAME && !method_.draws_all_frames) return;
+            const bool looks_back = settings.direct.reuses() || settings.indirect.uses_restir();
+            if (!looks_back && frame != LAST_FRAME && !method_.draws_all_frames) return;
             const FrameOutput output = renderer_->render({camera, std::uint32_t(frame), seed, settings});
             if (frame != LAST_FRAME) return;
             Image image = renderer_->read_radiance(output.radiance);

@@ -64,6 +64,28 @@ TEST_F(SkyAndLights, NegativeControlTheSkysShareForgottenByTheBrdfsCandidateIsFo
                  "TARN_PLANT_FORGET_SKY_SHARE");
 }
 
+// The floor is glossy: what it sends to the ball depends on where the ball is.
+MotionMethod indirect(const std::string& name, IndirectMode mode) {
+    MotionMethod method = ris(name, LightSelection::POWER, true);
+    RenderSettings settings = method.settings(0);
+    settings.indirect.mode = mode;
+    settings.indirect.reuse.mis_visibility = true;
+    settings.indirect.reuse.radius_px = 10.0;
+    method.settings = [settings](int) { return settings; };
+    return method;
+}
+
+TEST_F(SkyAndLights, IndirectLightHasNoBias) {
+    expect_no_bias(make_lamps_under_a_sky(),
+                   {indirect("path", IndirectMode::PATH), indirect("restir-gi", IndirectMode::RESTIR)},
+                   2 * SEEDS);
+}
+
+TEST_F(SkyAndLights, NegativeControlTheSkysShareForgottenWherePathsMeetSurfacesIsFound) {
+    expect_found(make_lamps_under_a_sky(), indirect("path", IndirectMode::PATH),
+                 "TARN_PLANT_FORGET_SKY_SHARE_OF_PATHS");
+}
+
 // Rays along the BRDF end on a lamp that is half there half of the time.
 TEST_F(SkyAndLights, LampsOfPartialCoverageAreCountedOnce) {
     const MotionMethod method = ris("power, brdf", LightSelection::POWER, true);

@@ -16,7 +16,9 @@ LightCandidate draw_next_event(RandomKey key, uint dimension) {
     LightCandidate c = no_candidate();
     if (SCENE_HAS_ENVIRONMENT && sky) {
         c = draw_environment(bits);
+#ifndef TARN_PLANT_FORGET_SKY_SHARE_OF_PATHS
         c.pdf *= share;
+#endif
     } else if (get_light_count() > 0u) {
         c = draw_light_by_power(bits);
         c.pdf *= 1.0f - share;
