@@ -76,35 +76,13 @@ ReflectedLight Renderer::light_directly(const FrameContext& frame, const GBuffer
             fresh = apply_direct_visibility(frame, std::move(fresh), seen);
         }
 
-        History<KeptSamples>& kept = history_.direct[slot.lane];
-        Samples over_time = fresh;
-        if (const auto previous = find_previous(frame, reuse, kept, slot.target_weights)) {
-            const bool tests = reuse.tests_chosen_samples && reuse.spatial_steps == 0;
-            over_time = reuse_direct_over_time(frame, {gbuffer, slot, fresh, tests}, *previous);
-        }
-        if (reuse.filters_boiling) over_time = filter_direct_boiling(frame, std::move(over_time));
-
-        Samples over_space = over_time;
-        ReflectedLight summed;
-        for (int i = 0; i < reuse.spatial_steps; ++i) {
-            const bool is_last = i + 1 == reuse.spatial_steps;
-            if (is_last && reuse.shades_all_samples) {
-                summed = take_reflected_light(frame, "direct/summed");
-            }
-            const ReuseInput input{gbuffer, slot, over_space, is_last && reuse.tests_chosen_samples,
-                                   summed ? &summed : nullptr};
-            over_space = reuse_direct_over_space(frame, input, i);
-        }
-        if (reuse.runs()) {
-            const Samples& chosen = reuse.keeps_temporal ? over_time : over_space;
-            kept.keep(frame.frame, {chosen.reservoirs, meaning_of(reuse, slot.target_weights)});
-        }
-
+        const ReusedSamples reused =
+            reuse_samples(frame, direct_reuse(frame), gbuffer, slot, fresh, history_.direct[slot.lane]);
         Answers seen;
         if (reuse.tests_chosen_samples) {
-            seen = trace_visibility(frame, "visibility", over_space.rays, pixels, slot.shadow_key);
+            seen = trace_visibility(frame, "visibility", reused.samples.rays, pixels, slot.shadow_key);
         }
-        light = shade_direct(frame, gbuffer, slot, {&over_space, seen, summed}, light);
+        light = shade_direct(frame, gbuffer, slot, {&reused.samples, seen, reused.light}, light);
     }
     return light;
 }
@@ -138,33 +116,16 @@ ReflectedLight Renderer::light_by_paths(const FrameContext& frame, const GBuffer
 
 ReflectedLight Renderer::reuse_paths(const FrameContext& frame, const GBuffer& gbuffer,
                                      const SampleSlot& slot, const Samples& fresh) {
-    const ReusePlan& reuse = frame.plan.indirect.reuse;
-    Samples over_time = fresh;
-    if (const auto previous = find_previous(frame, reuse, history_.indirect, slot.target_weights)) {
-        const bool tests = reuse.tests_chosen_samples && reuse.spatial_steps == 0;
-        over_time = reuse_indirect_over_time(frame, {gbuffer, slot, fresh, tests}, *previous);
-    }
-    if (reuse.filters_boiling) over_time = filter_indirect_boiling(frame, std::move(over_time));
-
-    Samples over_space = over_time;
-    ReflectedLight summed;
-    for (int i = 0; i < reuse.spatial_steps; ++i) {
-        const bool is_last = i + 1 == reuse.spatial_steps;
-        if (is_last && reuse.shades_all_samples) summed = take_reflected_light(frame, "indirect/light");
-        const ReuseInput input{gbuffer, slot, over_space, is_last && reuse.tests_chosen_samples,
-                               summed ? &summed : nullptr};
-        over_space = reuse_indirect_over_space(frame, input, i);
-    }
-    const Samples& kept = reuse.keeps_temporal ? over_time : over_space;
-    history_.indirect.keep(frame.frame, {kept.reservoirs, meaning_of(reuse, slot.target_weights)});
-    if (summed) return summed;
+    const ReusedSamples reused =
+        reuse_samples(frame, indirect_reuse(frame), gbuffer, slot, fresh, history_.indirect);
+    if (reused.light) return reused.light;
     Answers seen;
     // Without anything merged the samples are fresh: their pixels see them.
-    if (reuse.tests_chosen_samples && over_space.rays) {
-        seen = trace_visibility(frame, "indirect/visibility", over_space.rays, frame.pixel_count(),
+    if (frame.plan.indirect.reuse.tests_chosen_samples && reused.samples.rays) {
+        seen = trace_visibility(frame, "indirect/visibility", reused.samples.rays, frame.pixel_count(),
                                 slot.shadow_key);
     }
-    return shade_indirect(frame, gbuffer, slot, over_space, seen);
+    return shade_indirect(frame, gbuffer, slot, reused.samples, seen);
 }
 
 }  // namespace tarn

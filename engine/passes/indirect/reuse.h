@@ -1,13 +1,11 @@
-// Reuse of path samples: the steps of passes/reuse with indirect light's shaders.
+// Reuse of path samples: passes/reuse with indirect light's shaders.
 #pragma once
 
-#include "passes/reuse/reuse_step.h"
+#include "passes/reuse/reuse.h"
 
 namespace tarn {
 
-Samples reuse_indirect_over_time(const FrameContext& frame, const ReuseInput& input,
-                                 const Previous<KeptSamples>& previous);
-Samples filter_indirect_boiling(const FrameContext& frame, Samples samples);
-Samples reuse_indirect_over_space(const FrameContext& frame, const ReuseInput& input, int iteration);
+// Refers to `frame`.
+ReuseStage indirect_reuse(const FrameContext& frame);
 
 }  // namespace tarn
