@@ -45,6 +45,7 @@ std::vector<PlannedPass> list_passes(const DirectPlan& plan) {
         {"direct/spatial", reuse.spatial_steps > 0, "neighbours' samples are reused"},
         {"visibility", reuse.tests_chosen_samples,
          reuse.runs() ? "the chosen samples are traced after all reuse" : "every sample is traced"},
+        {"direct/shade", !plan.is_lit_by_reuse(), "samples light their pixels"},
     };
 }
 

@@ -47,6 +47,11 @@ struct DirectPlan {
     std::vector<glm::vec3> targets;  // weights of the channels in the target: luminance, or each channel
     ReusePlan reuse;
     DebugView view = DebugView::NONE;
+
+    // Whether the sum that the last spatial step makes is all the light there is.
+    bool is_lit_by_reuse() const {
+        return reuse.shades_all_samples && sample_count == 1 && targets.size() == 1;
+    }
 };
 
 struct IndirectPlan {

@@ -78,6 +78,7 @@ ReflectedLight Renderer::light_directly(const FrameContext& frame, const GBuffer
 
         const ReusedSamples reused =
             reuse_samples(frame, direct_reuse(frame), gbuffer, slot, fresh, history_.direct[slot.lane]);
+        if (plan.is_lit_by_reuse()) return reused.light;
         Answers seen;
         if (reuse.tests_chosen_samples) {
             seen = trace_visibility(frame, "visibility", reused.samples.rays, pixels, slot.shadow_key);

@@ -30,7 +30,10 @@ BrdfValue reflect_at(Receiver r, IncidentLight incident) {
     return reflect_light_parts(r.point, r.frame, r.brdf, incident);
 }
 
-// p-hat without visibility.
-float target_at(Receiver r, IncidentLight incident) {
-    return target_function(join_parts(r.point.material, reflect_at(r, incident)), target_weights.xyz);
+// p-hat of what a receiver reflects.
+float target_of(Receiver r, BrdfValue reflected) {
+    return target_function(join_parts(r.point.material, reflected), target_weights.xyz);
 }
+
+// p-hat without visibility.
+float target_at(Receiver r, IncidentLight incident) { return target_of(r, reflect_at(r, incident)); }

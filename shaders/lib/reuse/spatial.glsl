@@ -8,6 +8,13 @@
 
 const uint NEIGHBOURS = TARN_NEIGHBOURS;  // 1 .. 9
 
+// A loop over the neighbours; a single one is no loop, which compilers leave standing around large bodies.
+#if TARN_NEIGHBOURS == 1
+#define FOR_NEIGHBOURS(n) const uint n = 1u;
+#else
+#define FOR_NEIGHBOURS(n) for (uint n = 1u; n <= NEIGHBOURS; ++n)
+#endif
+
 #ifdef TARN_SHADE_ALL
 // Where all samples of this step light the pixel: the sum of m x BRDF x Le x G x visibility x W over them.
 layout(binding = 0, rgba32f) uniform writeonly image2D diffuse_image;  // without the albedo
@@ -41,7 +48,11 @@ ivec2 neighbour_pixel(ivec2 pixel, uint n) {
     return mirror != 0u ? mirrored(found) : found;
 }
 
-ivec2 technique_pixel(Gathering g, uint t) { return t == 0u ? g.pixel : neighbour_pixel(g.pixel, t); }
+// Inside of the picture, also where the neighbour is not and has not joined: what is read there is thrown away. Drivers
+// on the CPU run both sides of every branch, so that most of what follows selects results and has no branches.
+ivec2 technique_pixel(Gathering g, uint t) {
+    return t == 0u ? g.pixel : clamp(neighbour_pixel(g.pixel, t), ivec2(0), ivec2(frame_size.xy) - 1);
+}
 
 bool has_joined(Gathering g, uint t) { return t == 0u || (g.joined & (1u << t)) != 0u; }
 
@@ -69,7 +80,7 @@ Gathering gather(ivec2 pixel, Receiver here) {
     g.canonical = load_reservoir(in_reservoirs, pixel);
     g.joined = 0u;
     g.neighbour_confidence = 0.0f;
-    for (uint n = 1u; n <= NEIGHBOURS; ++n) {
+    FOR_NEIGHBOURS(n) {
         ivec2 neighbour = neighbour_pixel(pixel, n);
         bool joins = can_join(here, pixel, neighbour);
         g.joined |= joins ? 1u << n : 0u;
@@ -82,15 +93,24 @@ Gathering gather(ivec2 pixel, Receiver here) {
     return g;
 }
 
-// The sample of technique `t`; nothing where it did not join.
+// The sample of technique `t`; one without weight where it did not join.
 SampleReservoir technique_reservoir(Gathering g, uint t) {
     if (t == 0u) return g.canonical;
-    if (!has_joined(g, t)) return empty_sample_reservoir();
-    return load_reservoir(in_reservoirs, technique_pixel(g, t));
+    SampleReservoir r = load_reservoir(in_reservoirs, technique_pixel(g, t));
+    r.state.contribution_weight = has_joined(g, t) ? r.state.contribution_weight : 0.0f;
+    return r;
 }
 
 float technique_confidence(Gathering g, uint t) {
     return t == 0u ? g.canonical.state.confidence : load_confidence(in_reservoirs, technique_pixel(g, t));
+}
+
+// In the numerator of a weight.
+float own_confidence(Gathering g, uint t) {
+#ifdef TARN_PLANT_SKIP_CONFIDENCE
+    return 1.0f;
+#endif
+    return technique_confidence(g, t);
 }
 
 Receiver technique_receiver(Gathering g, uint t) {
@@ -125,62 +145,64 @@ float own_contribution_weight(Gathering g, uint t, SampleReservoir r) {
     return r.state.contribution_weight * shift_jacobian(technique_receiver(g, t), g.here, r.chosen);
 }
 
-// ---- Balance: every technique looks at every sample.
-
-// Over all techniques, for the sample `r` of technique `sampled`.
-float balance_sum(Gathering g, uint sampled, SampleReservoir r) {
-    float sum = balance_term(technique_confidence(g, sampled), own_target(g, sampled, r));
-    for (uint t = 0u; t <= NEIGHBOURS; ++t) {
-        if (t == sampled || !has_joined(g, t)) continue;
-        sum += balance_term(technique_confidence(g, t),
-                            technique_target(g, t, r.chosen) * answer(g, sampled, t));
-    }
-    return sum;
-}
-
-// ---- Pairwise: each neighbour looks at the pixel's sample, the pixel at each neighbour's.
-
 PairwiseStep pairwise_step(Gathering g) {
     return PairwiseStep(g.canonical.state.confidence, g.neighbour_confidence);
+}
+
+// ---- Weights: m of a technique for its own sample; those of 1/M and 1/Z are divided at the end. The pixel's own and
+// its neighbours' are apart, for drivers on the CPU run both sides of every branch.
+
+// Over all techniques, for the pixel's sample.
+float canonical_balance_sum(Gathering g) {
+    float sum = balance_term(g.canonical.state.confidence, g.canonical.state.target);
+    FOR_NEIGHBOURS(n) {
+        float target = technique_target(g, n, g.canonical.chosen) * answer(g, 0u, n);
+        float term = balance_term(technique_confidence(g, n), target);
+        sum += has_joined(g, n) ? term : 0.0f;
+    }
+    return sum;
 }
 
 float pairwise_canonical_weight(Gathering g) {
     PairwiseStep step = pairwise_step(g);
     float weight = pairwise_defensive_share(step);
-    for (uint n = 1u; n <= NEIGHBOURS; ++n) {
-        if (!has_joined(g, n)) continue;
+    FOR_NEIGHBOURS(n) {
         float target = technique_target(g, n, g.canonical.chosen) * answer(g, 0u, n);
-        weight += pairwise_canonical_term(step, technique_confidence(g, n), target, g.canonical.state.target);
+        float term =
+            pairwise_canonical_term(step, technique_confidence(g, n), target, g.canonical.state.target);
+        weight += has_joined(g, n) ? term : 0.0f;
     }
     return weight;
 }
 
-// ---- All modes
-
-// m of technique `t` for its own sample; those of 1/M and 1/Z are divided at the end.
-float technique_weight(Gathering g, uint t, SampleReservoir r, float target_here) {
-    float confidence = technique_confidence(g, t);
-#ifdef TARN_PLANT_SKIP_CONFIDENCE
-    confidence = 1.0f;
-#endif
-#ifdef TARN_PLANT_DROP_NORMALIZATION
-    return WEIGHTS_SUM_TO_ONE ? 1.0f : confidence;
-#endif
+float canonical_weight(Gathering g) {
+    float confidence = own_confidence(g, 0u);
     if (MIS == MIS_BALANCE)
-        return bounded_ratio(balance_term(confidence, own_target(g, t, r)), balance_sum(g, t, r));
-    if (MIS == MIS_PAIRWISE) {
-        if (t == 0u) return pairwise_canonical_weight(g);
-        return pairwise_neighbour_weight(pairwise_step(g), confidence, own_target(g, t, r), target_here);
-    }
+        return bounded_ratio(balance_term(confidence, g.canonical.state.target), canonical_balance_sum(g));
+    if (MIS == MIS_PAIRWISE) return pairwise_canonical_weight(g);
     return confidence;
 }
 
-// p-hat here at the sample of technique `t`, with visibility where the mode resamples by it.
-float find_target_here(Gathering g, uint t, SampleReservoir r) {
-    if (t == 0u) return r.state.target;
-    float target = sample_target(g.here, r.chosen);
-    if (WEIGHTS_SUM_TO_ONE) target *= answer(g, t, 0u);
-    return target;
+// Over all techniques, for the sample `r` of neighbour `n`, whose target is `own` there and `here` at the pixel.
+float balance_sum(Gathering g, uint n, SampleReservoir r, float own, float here) {
+    float sum = balance_term(technique_confidence(g, n), own);
+    sum += balance_term(g.canonical.state.confidence, here);
+    if (NEIGHBOURS == 1u) return sum;
+    for (uint t = 1u; t <= NEIGHBOURS; ++t) {
+        if (t == n || !has_joined(g, t)) continue;
+        float target = technique_target(g, t, r.chosen) * answer(g, n, t);
+        sum += balance_term(technique_confidence(g, t), target);
+    }
+    return sum;
+}
+
+float neighbour_weight(Gathering g, uint n, SampleReservoir r, float target_here) {
+    float confidence = own_confidence(g, n);
+    float own = own_target(g, n, r);
+    if (MIS == MIS_BALANCE)
+        return bounded_ratio(balance_term(confidence, own), balance_sum(g, n, r, own, target_here));
+    if (MIS == MIS_PAIRWISE) return pairwise_neighbour_weight(pairwise_step(g), confidence, own, target_here);
+    return confidence;
 }
 
 // Z, or M.
@@ -197,35 +219,50 @@ float find_normalization(Gathering g, Merge m) {
     return z;
 }
 
-// What a sample sends to the viewer, `share` being its m x W. Its colour is its own: averaging visibility under one
-// chosen colour leaks, this does not.
-void shade_sample(Gathering g, SampleReservoir r, float share, inout BrdfValue light) {
-    float factor = share * (MIS_VISIBILITY ? 1.0f : r.state.visibility);
-    BrdfValue reflected = reflect_sample(g.here, r.chosen);
-    light.diffuse += reflected.diffuse * factor;
-    light.specular += reflected.specular * factor;
+// Offers the sample of technique `t` and adds its light: it sends `reflected` to the viewer. Its colour is its own;
+// averaging visibility under one chosen colour leaks, this does not.
+void offer(Gathering g, uint t, SampleReservoir r, float target, float weight, BrdfValue reflected,
+           inout Merge m, inout BrdfValue light) {
+#ifdef TARN_PLANT_DROP_NORMALIZATION
+    if (WEIGHTS_SUM_TO_ONE) weight = target * own_contribution_weight(g, t, r);
+#endif
+#ifdef TARN_PLANT_TARGET_AT_NEIGHBOUR
+    if (target > 0.0f) weight *= r.state.target / target;
+#endif
+    offer_merged(m, r, target, weight, neighbour_random(g.pixel, t).z);
+#ifdef TARN_SHADE_ALL
+    if (weight > 0.0f && is_finite(weight)) {
+        float factor = weight / target * (MIS_VISIBILITY ? 1.0f : r.state.visibility);
+        light.diffuse += reflected.diffuse * factor;
+        light.specular += reflected.specular * factor;
+    }
+#endif
+}
+
+// Visibility of neighbour `n`'s sample from here, where a ray of this step has found it.
+float find_visibility(Gathering g, uint n, SampleReservoir r) {
+#ifndef TARN_WRITE_RAYS
+    if (VISIBILITY_IS_KNOWN && !MIS_VISIBILITY)
+        return load_answer(g.pixel, canonical_ray_slot(MIS, false, NEIGHBOURS, n));
+#endif
+    return r.state.visibility;
 }
 
 Merge merge_all(Gathering g, out BrdfValue light) {
     Merge m = empty_merge();
     light = no_reflection();
-    for (uint t = 0u; t <= NEIGHBOURS; ++t) {
-        SampleReservoir r = technique_reservoir(g, t);
-        if (r.state.contribution_weight == 0.0f) continue;
-        float target = find_target_here(g, t, r);
-#ifndef TARN_WRITE_RAYS
-        if (VISIBILITY_IS_KNOWN && t > 0u && !MIS_VISIBILITY) {
-            r.state.visibility = load_answer(g.pixel, canonical_ray_slot(MIS, false, NEIGHBOURS, t));
-        }
-#endif
-        float weight = technique_weight(g, t, r, target) * target * own_contribution_weight(g, t, r);
-#ifdef TARN_PLANT_TARGET_AT_NEIGHBOUR
-        if (target > 0.0f) weight *= r.state.target / target;
-#endif
-        offer_merged(m, r, target, weight, neighbour_random(g.pixel, t).z);
-#ifdef TARN_SHADE_ALL
-        if (weight > 0.0f && is_finite(weight)) shade_sample(g, r, weight / target, light);
-#endif
+    SampleReservoir own = g.canonical;
+    float own_weight = canonical_weight(g) * own.state.target * own.state.contribution_weight;
+    offer(g, 0u, own, own.state.target, own_weight, reflect_sample(g.here, own.chosen), m, light);
+    FOR_NEIGHBOURS(n) {
+        SampleReservoir r = technique_reservoir(g, n);
+        BrdfValue reflected = reflect_sample(g.here, r.chosen);
+        // With visibility where the mode resamples by it.
+        float target = target_of(g.here, reflected) * (WEIGHTS_SUM_TO_ONE ? answer(g, n, 0u) : 1.0f);
+        r.state.visibility = find_visibility(g, n, r);
+        float contribution = own_contribution_weight(g, n, r);
+        float weight = neighbour_weight(g, n, r, target) * target * contribution;
+        offer(g, n, r, target, contribution == 0.0f ? 0.0f : weight, reflected, m, light);
     }
     return m;
 }
@@ -246,7 +283,8 @@ void check_weights(Gathering g) {
     if (!WEIGHTS_SUM_TO_ONE) return;
     for (uint sampled = 0u; sampled <= NEIGHBOURS; ++sampled) {
         SampleReservoir r = technique_reservoir(g, sampled);
-        float here = find_target_here(g, sampled, r);
+        float here =
+            sampled == 0u ? r.state.target : sample_target(g.here, r.chosen) * answer(g, sampled, 0u);
         if (!holds_sample(r) || here == 0.0f) continue;
         float sum = MIS == MIS_PAIRWISE ? pairwise_defensive_share(pairwise_step(g)) : 0.0f;
         for (uint t = 0u; t <= NEIGHBOURS; ++t) {
@@ -254,8 +292,9 @@ void check_weights(Gathering g) {
             float target = t == sampled ? own_target(g, t, r) : technique_target(g, t, r.chosen);
             if (MIS == MIS_BALANCE) {
                 target *= answer(g, sampled, t);
-                sum += bounded_ratio(balance_term(technique_confidence(g, t), target),
-                                     balance_sum(g, sampled, r));
+                float all = sampled == 0u ? canonical_balance_sum(g)
+                                          : balance_sum(g, sampled, r, own_target(g, sampled, r), here);
+                sum += bounded_ratio(balance_term(technique_confidence(g, t), target), all);
             } else if (t > 0u) {
                 PairwiseStep step = pairwise_step(g);
                 sum += pairwise_neighbour_weight(step, technique_confidence(g, t), target, here) +
@@ -281,11 +320,12 @@ void write_rays(Gathering g) {
         }
         return;
     }
-    for (uint sampled = 0u; sampled <= NEIGHBOURS; ++sampled) {
+    // Without visibility in the weights only the neighbours' samples are asked for.
+    for (uint sampled = MIS_VISIBILITY ? 0u : 1u; sampled <= NEIGHBOURS; ++sampled) {
         SampleReservoir r = technique_reservoir(g, sampled);
         if (r.state.contribution_weight == 0.0f) continue;
         if (!MIS_VISIBILITY) {
-            if (sampled > 0u) write_ray(g, 0u, r.chosen, canonical_ray_slot(MIS, false, NEIGHBOURS, sampled));
+            write_ray(g, 0u, r.chosen, canonical_ray_slot(MIS, false, NEIGHBOURS, sampled));
             continue;
         }
         for (uint t = 0u; t <= NEIGHBOURS; ++t) {
