@@ -31,10 +31,14 @@ inline void intersect_one(RTCScene scene, EmbreeContext& context, RTCFilterFunct
     rtcIntersect1(scene, &ray, &arguments);
 }
 
-inline void occlude_one(RTCScene scene, EmbreeContext& context, RTCRay& ray) {
+inline void occlude_one(RTCScene scene, EmbreeContext& context, RTCFilterFunctionN filter, RTCRay& ray) {
     RTCOccludedArguments arguments;
     rtcInitOccludedArguments(&arguments);
     arguments.context = &context;
+    arguments.filter = filter;
+    if (filter != nullptr) {
+        arguments.flags = RTCRayQueryFlags(arguments.flags | RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
+    }
     rtcOccluded1(scene, &ray, &arguments);
 }
 
@@ -52,7 +56,8 @@ inline void intersect_one(RTCScene scene, EmbreeContext& context, RTCFilterFunct
     rtcIntersect1(scene, &context, &ray);
 }
 
-inline void occlude_one(RTCScene scene, EmbreeContext& context, RTCRay& ray) {
+inline void occlude_one(RTCScene scene, EmbreeContext& context, RTCFilterFunctionN filter, RTCRay& ray) {
+    context.filter = filter;
     rtcOccluded1(scene, &context, &ray);
 }
 

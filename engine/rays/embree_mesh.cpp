@@ -75,4 +75,14 @@ void EmbreeMesh::commit() {
     rtcCommitScene(scene_.get());
 }
 
+RTCScene StaticMeshes::scene(const World& world, std::uint32_t mesh) {
+    meshes_.resize(world.meshes.size());
+    std::unique_ptr<EmbreeMesh>& found = meshes_[mesh];
+    if (!found) {
+        found = std::make_unique<EmbreeMesh>(device_, world, world.meshes[mesh],
+                                             is_filtered_[mesh] ? coverage_filter_ : nullptr);
+    }
+    return found->scene();
+}
+
 }  // namespace tarn

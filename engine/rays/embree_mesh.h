@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "rays/embree_handles.h"
@@ -42,6 +43,24 @@ class EmbreeMesh {
     std::vector<glm::vec4> positions_;  // the copy, where there is one
     std::uint64_t revision_ = 0;
     bool refits_ = false;
+};
+
+// Meshes that never deform, each built when the first instance asks for it: those whose instances stand still
+// are never asked for.
+class StaticMeshes {
+  public:
+    // References must outlive this object.
+    StaticMeshes(RTCDevice device, const std::vector<bool>& is_filtered, RTCFilterFunctionN coverage_filter)
+        : device_(device), is_filtered_(is_filtered), coverage_filter_(coverage_filter) {}
+
+    RTCScene scene(const World& world, std::uint32_t mesh);
+    void clear() { meshes_.clear(); }
+
+  private:
+    RTCDevice device_;
+    const std::vector<bool>& is_filtered_;
+    RTCFilterFunctionN coverage_filter_;
+    std::vector<std::unique_ptr<EmbreeMesh>> meshes_;  // null: nobody asked yet
 };
 
 }  // namespace tarn

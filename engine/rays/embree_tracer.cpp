@@ -1,16 +1,18 @@
-// Embree behind the RayTracer interface: one BVH per mesh, instances on top, at the present moment and the
-// one before.
+// Embree behind the RayTracer interface: one BVH of what stands still, instances of what moves, at the
+// present moment and the one before.
 //
-// A hit's meaning (alpha, facing) comes from the world's own tables, by two filters. Coverage belongs to
+// A hit's meaning (alpha, facing) comes from the world's own tables, by filters. Coverage belongs to
 // geometries and is set where a mesh has an instance with an alpha test. Facing belongs to the query: camera
-// rays alone bring it along. Both see object space, where facing needs no care for mirrored instances: the
-// determinant's sign turns the normal and the winding alike. Flattened copies lie in world space, where the
-// winding of a mirrored one is turned.
+// rays alone bring it along. Of an instance both see object space, where facing needs no care for mirrored
+// ones: the determinant's sign turns the normal and the winding alike. What stands still lies in world space,
+// where the winding of a mirrored instance is turned. While the still scene has instances that have left it,
+// queries also bring a filter that passes these.
 #include <array>
 
 #include "rays/embree_handles.h"
 #include "rays/embree_mesh.h"
 #include "rays/embree_snapshot.h"
+#include "rays/embree_still_world.h"
 #include "rays/geometry_revisions.h"
 #include "rays/ray_checks.h"
 #include "rays/ray_tracer.h"
@@ -31,6 +33,23 @@ const QueryContext& context_of(const RTCFilterFunctionNArguments* arguments) {
     return *reinterpret_cast<const QueryContext*>(arguments->context);
 }
 
+std::uint32_t instance_of(const QueryContext& query, const RTCFilterFunctionNArguments* arguments,
+                          unsigned int i) {
+    return query.snapshot->instance_of(RTCHitN_instID(arguments->hit, arguments->N, i, 0),
+                                       RTCHitN_geomID(arguments->hit, arguments->N, i));
+}
+
+// Passes what was there and has left.
+void filter_left(const RTCFilterFunctionNArguments* arguments) {
+    const EmbreeSnapshot& snapshot = *context_of(arguments).snapshot;
+    const unsigned int n = arguments->N;
+    for (unsigned int i = 0; i < n; ++i) {
+        if (arguments->valid[i] != -1) continue;
+        const std::uint32_t instance = RTCHitN_instID(arguments->hit, n, i, 0);
+        if (snapshot.is_left(instance, RTCHitN_geomID(arguments->hit, n, i))) arguments->valid[i] = 0;
+    }
+}
+
 void filter_coverage(const RTCFilterFunctionNArguments* arguments) {
     const QueryContext& query = context_of(arguments);
     const unsigned int n = arguments->N;
@@ -38,7 +57,7 @@ void filter_coverage(const RTCFilterFunctionNArguments* arguments) {
         if (arguments->valid[i] != -1) continue;
         const glm::vec2 barycentrics(RTCHitN_u(arguments->hit, n, i), RTCHitN_v(arguments->hit, n, i));
         const bool covered = is_hit_covered(*query.world, query.snapshot->material_rows(), query.key,
-                                            query.pixel, RTCHitN_instID(arguments->hit, n, i, 0),
+                                            query.pixel, instance_of(query, arguments, i),
                                             RTCHitN_primID(arguments->hit, n, i), barycentrics);
         if (!covered) arguments->valid[i] = 0;
     }
@@ -49,7 +68,7 @@ void filter_back_faces(const RTCFilterFunctionNArguments* arguments) {
     const unsigned int n = arguments->N;
     for (unsigned int i = 0; i < n; ++i) {
         if (arguments->valid[i] != -1) continue;
-        const std::uint32_t flags = query.world->flags_of(RTCHitN_instID(arguments->hit, n, i, 0));
+        const std::uint32_t flags = query.world->flags_of(instance_of(query, arguments, i));
         if ((flags & MATERIAL_DOUBLE_SIDED) != 0u) continue;
         const glm::vec3 normal(RTCHitN_Ng_x(arguments->hit, n, i), RTCHitN_Ng_y(arguments->hit, n, i),
                                RTCHitN_Ng_z(arguments->hit, n, i));
@@ -58,6 +77,11 @@ void filter_back_faces(const RTCFilterFunctionNArguments* arguments) {
         const bool is_back = dot(normal, direction) > 0.0f;
         if (is_back != EmbreeMesh::is_winding_turned(arguments->geometryUserPtr)) arguments->valid[i] = 0;
     }
+}
+
+void filter_left_and_back_faces(const RTCFilterFunctionNArguments* arguments) {
+    filter_left(arguments);
+    filter_back_faces(arguments);
 }
 
 void fill_ray(RTCRay& target, const RayRecord& ray) {
@@ -89,13 +113,17 @@ class EmbreeTracer : public RayTracer {
             return;
         }
         world_ = &world;
+        still_->update(world);
         GeometryRevisions now = geometry_revisions_of(world);
-        if (now == followed_) return;
+        if (now == followed_) {
+            snapshots_[present_]->follow(world, still_->scene());  // which may be another one
+            return;
+        }
         followed_ = std::move(now);
         // The older of the two moments becomes the present one.
         present_ = 1 - present_;
         if (snapshots_[present_]) {
-            snapshots_[present_]->follow(world);
+            snapshots_[present_]->follow(world, still_->scene());
         } else {
             snapshots_[present_] = take_snapshot(world);
         }
@@ -113,11 +141,11 @@ class EmbreeTracer : public RayTracer {
         fill_ray(ray_hit.ray, ray);
         ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         ray_hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-        intersect_one(query.snapshot->scene(), query.embree,
-                      back_faces == BackFaces::PASS ? filter_back_faces : nullptr, ray_hit);
+        intersect_one(query.snapshot->scene(), query.embree, filter_for(*query.snapshot, back_faces),
+                      ray_hit);
         if (ray_hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-        return Hit{ray_hit.hit.instID[0], ray_hit.hit.primID, glm::vec2(ray_hit.hit.u, ray_hit.hit.v),
-                   ray_hit.ray.tfar};
+        return Hit{query.snapshot->instance_of(ray_hit.hit.instID[0], ray_hit.hit.geomID), ray_hit.hit.primID,
+                   glm::vec2(ray_hit.hit.u, ray_hit.hit.v), ray_hit.ray.tfar};
     }
 
   private:
@@ -125,8 +153,14 @@ class EmbreeTracer : public RayTracer {
         QueryContext query = make_query(ray, key, snapshot_at(moment));
         RTCRay shadow;
         fill_ray(shadow, ray);
-        occlude_one(query.snapshot->scene(), query.embree, shadow);
+        occlude_one(query.snapshot->scene(), query.embree, filter_for(*query.snapshot, BackFaces::HIT),
+                    shadow);
         return shadow.tfar >= 0.0f;  // Embree answers with -infinity
+    }
+
+    static RTCFilterFunctionN filter_for(const EmbreeSnapshot& snapshot, BackFaces back_faces) {
+        if (back_faces == BackFaces::HIT) return snapshot.has_left() ? filter_left : nullptr;
+        return snapshot.has_left() ? filter_left_and_back_faces : filter_back_faces;
     }
 
     const EmbreeSnapshot& snapshot_at(Moment moment) const {
@@ -147,7 +181,7 @@ class EmbreeTracer : public RayTracer {
     // Whether the meshes that Embree reads in place are where they were.
     bool has_same_memory(const World& world) const {
         return world.vertex_rows.data() == vertices_ && world.triangles.data() == triangles_ &&
-               world.meshes.size() == static_meshes_.size() &&
+               world.meshes.size() == is_filtered_.size() &&
                world.instances.size() == followed_.instances.size();
     }
 
@@ -162,20 +196,14 @@ class EmbreeTracer : public RayTracer {
             if (has_alpha_test(world.flags_of(i))) is_filtered_[world.instances[i].mesh] = true;
         }
         static_meshes_.clear();
-        for (std::size_t i = 0; i < world.meshes.size(); ++i) {
-            const WorldMesh& mesh = world.meshes[i];
-            static_meshes_.push_back(
-                mesh.deforms ? nullptr
-                             : std::make_unique<EmbreeMesh>(device_.get(), world, mesh,
-                                                            is_filtered_[i] ? filter_coverage : nullptr));
-        }
+        still_ = std::make_unique<EmbreeStillWorld>(device_.get(), world, is_filtered_, filter_coverage);
         snapshots_[present_] = take_snapshot(world);
         check_embree(device_.get(), "building the scene");
     }
 
-    std::unique_ptr<EmbreeSnapshot> take_snapshot(const World& world) const {
-        return std::make_unique<EmbreeSnapshot>(device_.get(), world, static_meshes_, is_filtered_,
-                                                filter_coverage);
+    std::unique_ptr<EmbreeSnapshot> take_snapshot(const World& world) {
+        return std::make_unique<EmbreeSnapshot>(device_.get(), world, still_->scene(), static_meshes_,
+                                                is_filtered_, filter_coverage);
     }
 
     const World* world_ = nullptr;
@@ -185,7 +213,8 @@ class EmbreeTracer : public RayTracer {
     std::uint64_t revision_ = 0;
     EmbreeDevice device_;
     std::vector<bool> is_filtered_;  // per mesh: some instance has an alpha test
-    StaticMeshes static_meshes_;
+    StaticMeshes static_meshes_{device_.get(), is_filtered_, filter_coverage};
+    std::unique_ptr<EmbreeStillWorld> still_;
     std::array<std::unique_ptr<EmbreeSnapshot>, 2> snapshots_;  // the second once something moves
     std::size_t present_ = 0;
 };

@@ -104,9 +104,10 @@ class WorkerLimit {
     std::unique_ptr<State> state_;
 };
 
-// Embree 3, two-level: one BVH per mesh, instances on top. Where things move, a second top level (and a
-// second BVH of each mesh that deforms) holds the geometry of the moment before; what never moves is there
-// once. Throws Error when Embree fails.
+// Embree: one BVH of the triangles of all that stands still, and instances of what moves or deforms. What
+// begins to move costs no rebuild. Where things move, a second top level (and a second BVH of each mesh that
+// deforms) holds the geometry of the moment before; what stands still is there once. Throws Error when Embree
+// fails.
 std::unique_ptr<RayTracer> create_embree_tracer(const World& world);
 
 // The ray tracing library and its version, such as "3.13.5".
