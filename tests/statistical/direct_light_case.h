@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <set>
 
-#include "reference/reference.h"
 #include "renderer/renderer.h"
 #include "shared/math/random.h"
+#include "support/kept_reference.h"
 #include "support/on_context.h"
 #include "support/test_scenes.h"
 #include "support/tile_test.h"
@@ -79,7 +79,7 @@ class DirectLightCase {
         settings.bounces = bounces;
         settings.spp = spp;
         settings.seed = 7;
-        const ReferenceResult reference = render_reference(scene_->world, *scene_->tracer, settings);
+        const ReferenceResult reference = find_reference(scene_->world, *scene_->tracer, settings);
         EXPECT_EQ(reference.non_finite, 0u);
         reference_ = {reference.radiance, reference.variance};
     }

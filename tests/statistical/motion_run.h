@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "reference/reference.h"
 #include "renderer/renderer.h"
 #include "shared/math/random.h"
+#include "support/kept_reference.h"
 #include "support/moving_scenes.h"
 #include "support/on_context.h"
 #include "support/tile_test.h"
@@ -119,7 +119,7 @@ class MotionTest : public OnContext<> {
         settings.bounces = bounces;
         settings.spp = 4096;
         settings.seed = 5;
-        const ReferenceResult result = render_reference(world, tracer, settings);
+        const ReferenceResult result = find_reference(world, tracer, settings);
         return {result.radiance, result.variance};
     }
 

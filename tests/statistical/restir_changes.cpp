@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "platform/context.h"
-#include "reference/reference.h"
 #include "renderer/renderer.h"
+#include "support/kept_reference.h"
 #include "support/tile_test.h"
 #include "support/toy_scenes.h"
 
@@ -87,7 +87,7 @@ class LightStage {
         settings.bounces = bounces;
         settings.spp = 2048;
         settings.seed = 5;
-        const ReferenceResult result = render_reference(world_, *tracer_, settings);
+        const ReferenceResult result = test::find_reference(world_, *tracer_, settings);
         return {result.radiance, result.variance};
     }
 
