@@ -64,7 +64,8 @@ struct IndirectPlan {
 struct DenoisePlan {
     DenoiseMode mode = DenoiseMode::OFF;
     bool runs = false;
-    bool keeps_filtered = false;  // the history is what the filter's first step makes; else the mean over time
+    bool keeps_filtered =
+        false;            // the history is what the filter's first step makes; else the mean over time
     bool adapts = false;  // the history is cut short where light changes
     int steps = 1;
     DenoiseKernel kernel = DenoiseKernel::BOX3;

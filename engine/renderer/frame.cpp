@@ -77,8 +77,7 @@ Picture Renderer::compare_light(const FrameContext& frame, const GBuffer& gbuffe
 // Of both stages as one.
 ReflectedLight Renderer::denoise(const FrameContext& frame, const GBuffer& gbuffer, const NoisyLight& noisy) {
     KeptLight kept;
-    const ReflectedLight light =
-        denoiser_.record(frame, gbuffer, noisy, find_previous_light(frame), kept);
+    const ReflectedLight light = denoiser_.record(frame, gbuffer, noisy, find_previous_light(frame), kept);
     history_.denoised.keep(frame.frame, std::move(kept));
     return light;
 }

@@ -191,8 +191,8 @@ void add_denoise_rows(std::vector<Setting>& table) {
                 "that is cut short where light changes or without that, or by surfaces alone",
                 &S::mode, {"off", "svgf", "svgf-static", "bilateral"});
     rows.where(&S::runs)
-        .number("denoise-steps", "", "Steps of the filter over neighbours, each twice as wide as the one before",
-                &S::steps, 1, 6)
+        .number("denoise-steps", "",
+                "Steps of the filter over neighbours, each twice as wide as the one before", &S::steps, 1, 6)
         .choose("denoise-kernel", "Pixels that a step of the filter looks at: 5, 9 or 25", &S::kernel,
                 {"cross", "3x3", "5x5"})
         .number("denoise-history", "frames", "The history counts as so many frames at most", &S::history, 1,

@@ -9,7 +9,7 @@ namespace {
 enum HistoryLayer { GUIDE, MOMENTS, DIFFUSE, SPECULAR, HISTORY_LAYER_COUNT };
 
 // Two luminances are the same light where their squared difference is less than so many of their variances.
-constexpr float LUMINANCE_FACTOR = 16.0f;
+constexpr float LUMINANCE_FACTOR = 4.0f;
 
 DenoiseConstants constants_for(const FrameContext& frame, int step) {
     const DenoiseSettings& settings = frame.settings.denoise;
@@ -21,20 +21,15 @@ DenoiseConstants constants_for(const FrameContext& frame, int step) {
     return constants;
 }
 
-// Light without albedo as the filter reads and writes it, and the guide of its pixels.
-struct LightViews {
-    const Texture2D& diffuse;
-    const Texture2D& specular;
-};
-
-// The history of the filter's mode is its first step's result, that of the bilateral one the mean over time.
+// Into pictures of its own, or into the history where that is the mean over time itself (then returns none).
 ReflectedLight accumulate(const FrameContext& frame, const GBuffer& gbuffer, const NoisyLight& noisy,
                           const std::optional<Previous<KeptLight>>& previous, const DenoiseImages& images) {
     const DenoisePlan& plan = frame.plan.denoise;
     DenoiseConstants constants = constants_for(frame, 0);
     constants.has_previous = previous ? 1u : 0u;
     constants.has_changes = noisy.changes ? 1u : 0u;
-    const ReflectedLight light = take_reflected_light(frame, "denoise/accumulate");
+    ReflectedLight light;
+    if (plan.keeps_filtered) light = take_reflected_light(frame, "denoise/accumulate");
     PassRecorder pass = frame.pass("denoise/accumulate");
     read_gbuffer(pass, gbuffer)
         .constants(constants)
@@ -43,7 +38,8 @@ ReflectedLight accumulate(const FrameContext& frame, const GBuffer& gbuffer, con
         .write_image(0, images.layers[GUIDE])
         .write_image(1, images.layers[MOMENTS])
         .count(BLOCK_COUNTERS, frame.counters);
-    if (noisy.indirect) pass.read(UNIT_PASS_C, noisy.indirect.diffuse).read(UNIT_PASS_D, noisy.indirect.specular);
+    if (noisy.indirect)
+        pass.read(UNIT_PASS_C, noisy.indirect.diffuse).read(UNIT_PASS_D, noisy.indirect.specular);
     if (previous) pass.read(UNIT_PREVIOUS_SURFACE, *previous, previous->value().images->stack);
     if (noisy.changes) pass.read(UNIT_PASS_E, noisy.changes);
     if (plan.keeps_filtered) {
@@ -55,22 +51,23 @@ ReflectedLight accumulate(const FrameContext& frame, const GBuffer& gbuffer, con
     return light;
 }
 
-void filter(const FrameContext& frame, const GBuffer& gbuffer, const DenoiseImages& images, int step,
-            const LightViews& from, const LightViews& to) {
+ReflectedLight filter(const FrameContext& frame, const GBuffer& gbuffer, const DenoiseImages& images,
+                      int step, const Texture2D& diffuse, const Texture2D& specular) {
     const DenoisePlan& plan = frame.plan.denoise;
-    const bool is_first = step == 0, is_last = step + 1 == plan.steps;
+    const DenoiseFilterVariant variant = plan.filter(step == 0, step + 1 == plan.steps);
+    const ReflectedLight light = take_reflected_light(frame, "denoise/filter");
     PassRecorder pass = frame.pass("denoise/filter");
     read_gbuffer(pass, gbuffer)
         .constants(constants_for(frame, step))
         .read(UNIT_PASS_A, images.layers[GUIDE])
-        .read(UNIT_PASS_B, from.diffuse)
-        .read(UNIT_PASS_C, from.specular)
-        .write_image(0, to.diffuse)
-        .write_image(1, to.specular)
+        .read(UNIT_PASS_B, diffuse)
+        .read(UNIT_PASS_C, specular)
+        .write_image(0, *light.diffuse)
+        .write_image(1, *light.specular)
         .count(BLOCK_COUNTERS, frame.counters);
-    if (is_first && is_last && plan.keeps_filtered)
-        pass.write_image(2, images.layers[DIFFUSE]).write_image(3, images.layers[SPECULAR]);
-    pass.dispatch(frame.compute(plan.filter(is_first, is_last)), frame.size_px);
+    if (variant.is_first) pass.write_image(2, images.layers[DIFFUSE]).write_image(3, images.layers[SPECULAR]);
+    pass.dispatch(frame.compute(variant), frame.size_px);
+    return light;
 }
 
 }  // namespace
@@ -91,16 +88,12 @@ ReflectedLight Denoiser::record(const FrameContext& frame, const GBuffer& gbuffe
     const DenoisePlan& plan = frame.plan.denoise;
     const auto images = images_.take(fmt::format("{} x {}", frame.size_px.x, frame.size_px.y),
                                      [&] { return DenoiseImages(frame.size_px); });
-    const LightViews history{images->layers[DIFFUSE], images->layers[SPECULAR]};
-    const ReflectedLight accumulated = accumulate(frame, gbuffer, noisy, previous, *images);
-    ReflectedLight light = accumulated, result;
+    ReflectedLight light = accumulate(frame, gbuffer, noisy, previous, *images);
     for (int step = 0; step < plan.steps; ++step) {
-        const bool from_history = plan.keeps_filtered ? step == 1 : step == 0;
-        const bool to_history = plan.keeps_filtered && step == 0 && plan.steps > 1;
-        result = to_history ? light : take_reflected_light(frame, "denoise/filter");
-        const LightViews own{*light.diffuse, *light.specular}, next{*result.diffuse, *result.specular};
-        filter(frame, gbuffer, *images, step, from_history ? history : own, to_history ? history : next);
-        light = result;
+        const bool from_history = step == 0 && !plan.keeps_filtered;
+        light = from_history
+                    ? filter(frame, gbuffer, *images, step, images->layers[DIFFUSE], images->layers[SPECULAR])
+                    : filter(frame, gbuffer, *images, step, *light.diffuse, *light.specular);
     }
     kept = {images, denoise_meaning(frame.plan)};
     return light;

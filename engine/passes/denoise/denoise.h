@@ -40,9 +40,9 @@ struct NoisyLight {
 
 class Denoiser {
   public:
-    // The light of both stages as one, denoised: diffuse without its albedo, specular as it is. `indirect`: none
-    // where the plan has none. `changes`: find_light_changes, or none. `previous`: what the last frame kept. Fills
-    // `kept`, what the next one finds.
+    // The light of both stages as one, denoised: diffuse without its albedo, specular as it is. `indirect`:
+    // none where the plan has none. `changes`: find_light_changes, or none. `previous`: what the last frame
+    // kept. Fills `kept`, what the next one finds.
     ReflectedLight record(const FrameContext& frame, const GBuffer& gbuffer, const NoisyLight& noisy,
                           const std::optional<Previous<KeptLight>>& previous, KeptLight& kept);
 

@@ -8,9 +8,9 @@
 
 namespace tarn {
 
-// R32F, a texel for each cell of CHANGE_CELL x CHANGE_CELL pixels: the share of the light there that has changed since
-// the last frame, 0 to 1. Compares light samples of both frames (`previous`, `present`) in both frames, with rays where
-// things move.
+// R32F, a texel for each cell of CHANGE_CELL x CHANGE_CELL pixels: the share of the light there that has
+// changed since the last frame, 0 to 1. Compares light samples of both frames (`previous`, `present`) in both
+// frames, with rays where things move.
 Picture find_light_changes(const FrameContext& frame, const GBuffer& gbuffer,
                            const Previous<KeptSamples>& previous, const KeptSamples& present);
 

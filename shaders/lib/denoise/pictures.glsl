@@ -24,9 +24,7 @@ struct Guide {
     float alpha;
 };
 
-Guide unpack_guide(vec4 code) {
-    return Guide(code.x, unpack_projected_normal(code.y), code.z);
-}
+Guide unpack_guide(vec4 code) { return Guide(code.x, unpack_projected_normal(code.y), code.z); }
 
 vec4 pack_guide(Guide guide, HistoryTag tag) {
     return vec4(guide.depth, pack_projected_normal(guide.normal), guide.alpha, pack_history_tag(tag));

@@ -70,10 +70,10 @@ struct Past {
 };
 
 struct Gathered {
-    vec4 diffuse;   // light, frames
+    vec4 diffuse;  // light, frames
     vec4 specular;
     vec4 moments;
-    vec2 weights;   // base, layer
+    vec2 weights;  // base, layer
 };
 
 // What the pixel was in the last frame.
@@ -172,8 +172,7 @@ float cap_layer_frames(float alpha, vec3 point, vec3 previous_point) {
     CameraRecord camera = frame_camera();
     CameraRecord before = previous_camera();
     vec3 view = camera.orthographic ? -camera.forward : normalize(camera.position - point);
-    vec3 previous_view =
-        before.orthographic ? -before.forward : normalize(before.position - previous_point);
+    vec3 previous_view = before.orthographic ? -before.forward : normalize(before.position - previous_point);
     float turned = length(view - previous_view);
     return WIDTHS * alpha / max(turned, 1e-6f);
 }
@@ -219,7 +218,6 @@ Accumulated nothing_accumulated() { return Accumulated(UNKNOWN_LIGHT, LightMomen
 Accumulated accumulate(vec3 light, bool usable, Past past) {
     const float LEAST_MOMENT_SHARE = 0.1f;
     const float CORRELATED_FRAMES = 8.0f;
-    const float FEW_FRAMES = 4.0f;
     const float GUESSED_VARIANCE = 4.0f;  // of a pixel without history, over its squared luminance
     if (!usable && past.frames == 0.0f) return nothing_accumulated();
     Accumulated a;
@@ -285,11 +283,13 @@ void main() {
     vec3 layer_share = load_layer_share(pixel);
     PixelLight light = load_light(pixel);
     bvec2 usable = find_usable(pixel, light, base, layer);
-    vec3 arriving = vec3(ratio_or_zero(light.specular.x, layer_share.x), ratio_or_zero(light.specular.y, layer_share.y),
-                         ratio_or_zero(light.specular.z, layer_share.z));
+    vec3 arriving =
+        vec3(ratio_or_zero(light.specular.x, layer_share.x), ratio_or_zero(light.specular.y, layer_share.y),
+             ratio_or_zero(light.specular.z, layer_share.z));
     Accumulated base_now = nothing_accumulated();
     Accumulated layer_now = nothing_accumulated();
-    if (max_component(point.material.diffuse_albedo) > 0.0f) base_now = accumulate(light.diffuse, usable.x, base);
+    if (max_component(point.material.diffuse_albedo) > 0.0f)
+        base_now = accumulate(light.diffuse, usable.x, base);
     if (max_component(layer_share) > 0.0f) layer_now = accumulate(arriving, usable.y, layer);
     float instance = 0.0f;
 #ifdef TARN_MOTION

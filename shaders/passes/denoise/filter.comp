@@ -9,8 +9,9 @@
 // The filter of Schied et al. blurs the variance before it asks it. Here a tap's own variance counts beside that of the
 // pixel: weights are alike both ways, so that light that a pixel takes others give, and the energy stays.
 //
-// The first step also finds the variance among its taps where the history is short, and what it writes is the history of
-// the next frame.
+// The first step also finds the variance among its taps where the history is short, and makes the history of the next
+// frame: what it has found, but where the history is short what it was given. There the variance is a guess, and what
+// a guess blurs the history would keep for long.
 //
 // TARN_FIRST_STEP, TARN_LAST_STEP; the last one gives the layer its albedo back.
 // TARN_KERNEL_CROSS, TARN_KERNEL_BOX3, TARN_KERNEL_BOX5: 5, 9, 25 taps.
@@ -29,7 +30,7 @@ layout(binding = UNIT_PASS_B) uniform sampler2D in_diffuse;
 layout(binding = UNIT_PASS_C) uniform sampler2D in_specular;
 layout(binding = 0, rgba32f) writeonly uniform image2D out_diffuse;
 layout(binding = 1, rgba32f) writeonly uniform image2D out_specular;
-#if defined(TARN_FIRST_STEP) && defined(TARN_LAST_STEP)
+#ifdef TARN_FIRST_STEP
 layout(binding = 2, rgba32f) writeonly uniform image2D kept_diffuse;
 layout(binding = 3, rgba32f) writeonly uniform image2D kept_specular;
 #endif
@@ -83,8 +84,8 @@ Mean no_mean() {
 
 Centre load_centre(ivec2 pixel, Guide guide, vec4 diffuse, vec4 specular) {
     const float TOLERANCE_PX = 3.0f;
-    const float MAX_SQUARED_CHORD = 0.2f;        // of the base: 26 degrees
-    const float LEAST_LAYER_CHORD = 0.01f;       // of a mirror
+    const float MAX_SQUARED_CHORD = 0.2f;   // of the base: 26 degrees
+    const float LEAST_LAYER_CHORD = 0.01f;  // of a mirror
     CameraRecord camera = frame_camera();
     vec3 position = load_layer(pixel, LAYER_POSITION).xyz;
     vec3 normal = decode_octahedral(load_layer(pixel, LAYER_NORMALS).xy);
@@ -186,8 +187,7 @@ vec4 finish(Mean mean, float frames) {
     return vec4(mean.light, mean.variance);
 #endif
     float variance = mean.variance * scale * scale;
-#if defined(TARN_FIRST_STEP) && !defined(TARN_BILATERAL)
-    const float FEW_FRAMES = 4.0f;
+#ifdef TARN_FIRST_STEP
     float difference = mean.difference * scale;
     float among_taps = max(0.0f, mean.square * scale - difference * difference);
     variance = frames < FEW_FRAMES ? among_taps : variance;
@@ -206,10 +206,6 @@ vec4 sanitize(vec4 light) {
 }
 
 void store(ivec2 pixel, vec4 diffuse, vec4 specular) {
-#if defined(TARN_FIRST_STEP) && defined(TARN_LAST_STEP)
-    imageStore(kept_diffuse, pixel, diffuse);
-    imageStore(kept_specular, pixel, specular);
-#endif
 #ifdef TARN_LAST_STEP
     diffuse = vec4(diffuse.xyz, 1.0f);
     specular = vec4(specular.xyz * load_layer_share(pixel), 1.0f);
@@ -217,6 +213,13 @@ void store(ivec2 pixel, vec4 diffuse, vec4 specular) {
     imageStore(out_diffuse, pixel, diffuse);
     imageStore(out_specular, pixel, specular);
 }
+
+#ifdef TARN_FIRST_STEP
+void keep(ivec2 pixel, vec4 diffuse, vec4 specular) {
+    imageStore(kept_diffuse, pixel, diffuse);
+    imageStore(kept_specular, pixel, specular);
+}
+#endif
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -227,6 +230,9 @@ void main() {
     vec4 specular = texelFetch(in_specular, pixel, 0);
     if (guide.alpha < 0.0f) {
         store(pixel, UNKNOWN_LIGHT, UNKNOWN_LIGHT);
+#ifdef TARN_FIRST_STEP
+        keep(pixel, UNKNOWN_LIGHT, UNKNOWN_LIGHT);
+#endif
         return;
     }
     Centre centre = load_centre(pixel, guide, diffuse, specular);
@@ -236,6 +242,12 @@ void main() {
     add(base, diffuse, known.x ? centre_weight() : 0.0f, 0.0f);
     add(layer, specular, known.y ? centre_weight() : 0.0f, 0.0f);
     add_taps(base, layer, centre, known);
-    HistoryTag tag = unpack_history_tag(packed_guide.w);
-    store(pixel, sanitize(finish(base, tag.frames.x)), sanitize(finish(layer, tag.frames.y)));
+    vec2 frames = unpack_history_tag(packed_guide.w).frames;
+    vec4 new_diffuse = sanitize(finish(base, frames.x));
+    vec4 new_specular = sanitize(finish(layer, frames.y));
+#ifdef TARN_FIRST_STEP
+    keep(pixel, frames.x < FEW_FRAMES ? diffuse : new_diffuse,
+         frames.y < FEW_FRAMES ? specular : new_specular);
+#endif
+    store(pixel, new_diffuse, new_specular);
 }

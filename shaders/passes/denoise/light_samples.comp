@@ -29,7 +29,8 @@ layout(std430, binding = 0) writeonly buffer Rays { uvec4 out_rays[]; };
 
 // Samples of light have no rows of their own.
 LightSample load_sample(usamplerBuffer rows, ivec2 pixel) {
-    return unpack_light_sample(texelFetch(rows, int(pixel_index(pixel) * (RESERVOIR_ROWS + LIGHT_SAMPLE_ROWS))).xyz);
+    return unpack_light_sample(
+        texelFetch(rows, int(pixel_index(pixel) * (RESERVOIR_ROWS + LIGHT_SAMPLE_ROWS))).xyz);
 }
 
 bool is_sample(LightSample drawn) { return drawn.light != INVALID_INDEX; }
@@ -64,7 +65,8 @@ Comparison compare(ShadingPoint here, ShadingPoint there, LightSample present, L
     if (is_sample(previous)) {
         IncidentLight light = load_previous_incident_light(previous, there.position);
         c.before = arriving(there, light);
-        if (c.before > 0.0f) c.ray_before = make_shadow_ray(there, light, load_previous_light_error(previous), pixel);
+        if (c.before > 0.0f)
+            c.ray_before = make_shadow_ray(there, light, load_previous_light_error(previous), pixel);
         c.ray_before.pixel |= RAY_PREVIOUS;
     }
     return c;
