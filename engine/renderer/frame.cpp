@@ -63,7 +63,8 @@ std::optional<Previous<KeptLight>> Renderer::find_previous_light(const FrameCont
 
 // The last frame's light samples, where this one compares them with its own.
 std::optional<Previous<KeptSamples>> Renderer::find_previous_samples(const FrameContext& frame) const {
-    if (!frame.plan.denoise.adapts || history_.direct.empty()) return std::nullopt;
+    if (!frame.plan.denoise.adapts || !gpu_scene_.is_changing() || history_.direct.empty())
+        return std::nullopt;
     const DirectPlan& plan = frame.plan.direct;
     return find_previous(frame, plan.reuse, history_.direct.front(), plan.targets.front());
 }

@@ -15,8 +15,8 @@ enum class DenoiseKernel { CROSS, BOX3, BOX5 };
 
 struct DenoiseSettings {
     DenoiseMode mode = DenoiseMode::OFF;
-    int steps = 4;  // of the filter, each twice as wide as the one before
-    DenoiseKernel kernel = DenoiseKernel::BOX3;
+    int steps = 5;  // of the filter, each twice as wide as the one before
+    DenoiseKernel kernel = DenoiseKernel::CROSS;
     int history = 32;  // frames
 
     bool runs() const { return mode != DenoiseMode::OFF; }
