@@ -73,6 +73,14 @@ std::vector<PlannedPass> list_passes(const IndirectPlan& plan) {
     };
 }
 
+std::vector<PlannedPass> list_passes(const DenoisePlan& plan) {
+    return {
+        {"denoise/light_changes", plan.adapts, "light may change: samples of both frames are compared"},
+        {"denoise/accumulate", plan.runs, "light joins that of the last frames"},
+        {"denoise/filter", plan.runs, "and that of pixels that show the same surface"},
+    };
+}
+
 }  // namespace
 
 DirectPlan plan_direct(const DirectSettings& settings) {
@@ -107,17 +115,32 @@ IndirectPlan plan_indirect(const IndirectSettings& settings) {
     return plan;
 }
 
+DenoisePlan plan_denoise(const RenderSettings& settings, const SceneFeatures& features) {
+    DenoisePlan plan;
+    plan.runs = settings.denoise.runs() && settings.direct.debug_view == DebugView::NONE;
+    plan.mode = plan.runs ? settings.denoise.mode : DenoiseMode::OFF;
+    plan.keeps_filtered = settings.denoise.knows_variance();
+    plan.adapts = plan.mode == DenoiseMode::SVGF && settings.direct.reuses_time() &&
+                  (features.motion || features.light_history);
+    plan.steps = settings.denoise.steps;
+    plan.kernel = settings.denoise.kernel;
+    plan.accumulate = {settings.indirect.runs(), plan.adapts};
+    return plan;
+}
+
 FramePlan make_plan(const FeatureSurvey& survey, const RenderSettings& settings) {
     FramePlan plan;
     plan.features = survey.features;
     plan.feature_reasons = survey.reasons;
     plan.direct = plan_direct(settings.direct);
     plan.indirect = plan_indirect(settings.indirect);
-    plan.composite.indirect = plan.indirect.runs;
+    plan.denoise = plan_denoise(settings, plan.features);
+    plan.composite.indirect = plan.indirect.runs && !plan.denoise.runs;
     const DebugView view = plan.direct.view;
     plan.composite.light_alone = view == DebugView::VISIBILITY || view == DebugView::SAMPLES;
     plan.passes = list_passes(plan.direct);
     for (PlannedPass& pass : list_passes(plan.indirect)) plan.passes.push_back(std::move(pass));
+    for (PlannedPass& pass : list_passes(plan.denoise)) plan.passes.push_back(std::move(pass));
     return plan;
 }
 

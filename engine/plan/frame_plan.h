@@ -66,6 +66,21 @@ struct IndirectPlan {
     ReusePlan reuse;
 };
 
+struct DenoisePlan {
+    DenoiseMode mode = DenoiseMode::OFF;
+    bool runs = false;
+    bool keeps_filtered =
+        false;            // the history is what the filter's first step makes; else the mean over time
+    bool adapts = false;  // the history is cut short where light changes
+    int steps = 1;
+    DenoiseKernel kernel = DenoiseKernel::BOX3;
+    DenoiseAccumulateVariant accumulate;
+
+    DenoiseFilterVariant filter(bool is_first, bool is_last) const {
+        return {kernel, keeps_filtered, is_first && keeps_filtered, is_last};
+    }
+};
+
 // A pass that this frame runs or leaves out.
 struct PlannedPass {
     std::string name;  // as in the timings
@@ -78,12 +93,15 @@ struct FramePlan {
     std::vector<FeatureReason> feature_reasons;
     DirectPlan direct;
     IndirectPlan indirect;
+    DenoisePlan denoise;
     CompositeVariant composite;
     std::vector<PlannedPass> passes;  // those that not every frame runs
 };
 
 DirectPlan plan_direct(const DirectSettings& settings);
 IndirectPlan plan_indirect(const IndirectSettings& settings);
+// Debug views are shown as they are.
+DenoisePlan plan_denoise(const RenderSettings& settings, const SceneFeatures& features);
 
 FramePlan make_plan(const FeatureSurvey& survey, const RenderSettings& settings);
 

@@ -214,6 +214,38 @@ std::vector<ShadeVariant> ShadeVariant::all() {
     return result;
 }
 
+Defines DenoiseAccumulateVariant::defines() const {
+    Defines result;
+    if (indirect) result.emplace_back("TARN_INDIRECT");
+    if (adapts) result.emplace_back("TARN_ADAPTIVE");
+    return result;
+}
+
+std::vector<DenoiseAccumulateVariant> DenoiseAccumulateVariant::all() {
+    return {{false, false}, {false, true}, {true, false}, {true, true}};
+}
+
+Defines DenoiseFilterVariant::defines() const {
+    constexpr std::array<const char*, 3> KERNELS = {"TARN_KERNEL_CROSS", "TARN_KERNEL_BOX3",
+                                                    "TARN_KERNEL_BOX5"};
+    Defines result = {KERNELS[std::size_t(kernel)]};
+    if (!by_variance) result.emplace_back("TARN_BILATERAL");
+    if (is_first) result.emplace_back("TARN_FIRST_STEP");
+    if (is_last) result.emplace_back("TARN_LAST_STEP");
+    return result;
+}
+
+std::vector<DenoiseFilterVariant> DenoiseFilterVariant::all() {
+    std::vector<DenoiseFilterVariant> result;
+    for (const DenoiseKernel kernel : {DenoiseKernel::CROSS, DenoiseKernel::BOX3, DenoiseKernel::BOX5}) {
+        for (const bool is_last : {false, true}) {
+            for (const bool is_first : {false, true}) result.push_back({kernel, true, is_first, is_last});
+            result.push_back({kernel, false, false, is_last});
+        }
+    }
+    return result;
+}
+
 Defines CompositeVariant::defines() const {
     Defines result;
     if (indirect) result.emplace_back("TARN_INDIRECT");
@@ -259,6 +291,10 @@ std::vector<ShaderFamily> shader_families() {
             family_of<IndirectBoilingFilterVariant>(),
             family_of<IndirectSpatialVariant>(),
             family_of<IndirectShadeVariant>(),
+            family_of<LightSamplesVariant>(),
+            family_of<LightChangesVariant>(),
+            family_of<DenoiseAccumulateVariant>(),
+            family_of<DenoiseFilterVariant>(),
             family_of<CompositeVariant>(),
             family_of<EnlargeVariant>(),
             family_of<ExposureVariant>(),

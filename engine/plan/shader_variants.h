@@ -167,6 +167,35 @@ struct ShadeVariant {
     static std::vector<ShadeVariant> all();
 };
 
+// The denoiser.
+struct DenoiseAccumulateVariant {
+    static constexpr const char* PATH = "denoise/accumulate";
+    static constexpr bool IS_OF_SCENE = true;
+    bool indirect = false;
+    bool adapts = false;  // to changes of the light
+    Defines defines() const;
+    static std::vector<DenoiseAccumulateVariant> all();
+};
+
+struct LightSamplesVariant : PlainVariant<LightSamplesVariant> {
+    static constexpr const char* PATH = "denoise/light_samples";
+};
+struct LightChangesVariant : PlainVariant<LightChangesVariant> {
+    static constexpr bool IS_OF_SCENE = false;
+    static constexpr const char* PATH = "denoise/light_changes";
+};
+
+struct DenoiseFilterVariant {
+    static constexpr const char* PATH = "denoise/filter";
+    static constexpr bool IS_OF_SCENE = true;
+    DenoiseKernel kernel = DenoiseKernel::BOX3;
+    bool by_variance = true;  // else by surfaces alone
+    bool is_first = false;    // of those by variance
+    bool is_last = false;
+    Defines defines() const;
+    static std::vector<DenoiseFilterVariant> all();
+};
+
 struct CompositeVariant {
     static constexpr const char* PATH = "composite";
     static constexpr bool IS_OF_SCENE = false;

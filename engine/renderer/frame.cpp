@@ -1,6 +1,9 @@
 // THE FRAME: from the scene's tables to radiance and what is shown of it, stage by stage. Each stage takes
 // values and returns values; what the next frame finds is what `history_` keeps.
+#include <utility>
+
 #include "passes/composite.h"
+#include "passes/denoise/light_changes.h"
 #include "passes/direct/brdf_candidates.h"
 #include "passes/direct/candidates.h"
 #include "passes/direct/light_tiles.h"
@@ -37,14 +40,47 @@ std::vector<SampleSlot> list_slots(const FrameContext& frame) {
 Renderer::Values Renderer::record_frame(const FrameContext& frame, const FrameInput& input) {
     const GBuffer gbuffer =
         gbuffer_.record(frame, world_, input.camera, find_previous(frame, history_.surfaces));
-    const ReflectedLight direct = light_directly(frame, gbuffer);
+    const auto samples = find_previous_samples(frame);
+    ReflectedLight direct = light_directly(frame, gbuffer);
     ReflectedLight indirect;
     if (frame.plan.indirect.runs) indirect = light_indirectly(frame, gbuffer);
+    if (frame.plan.denoise.runs) {
+        const Picture changes = samples ? compare_light(frame, gbuffer, *samples) : nullptr;
+        direct = denoise(frame, gbuffer, {direct, std::exchange(indirect, {}), changes});
+    }
     const Picture radiance = enlarge(frame, composite(frame, gbuffer, direct, indirect));
     Picture display;
     if (input.display) display = show(frame, *input.display, radiance, gbuffer);
     history_.surfaces.keep(frame.frame, gbuffer.surfaces);
     return {gbuffer, radiance, display};
+}
+
+std::optional<Previous<KeptLight>> Renderer::find_previous_light(const FrameContext& frame) const {
+    auto previous = find_previous(frame, history_.denoised);
+    if (previous && previous->value().meaning != denoise_meaning(frame.plan)) return std::nullopt;
+    return previous;
+}
+
+// The last frame's light samples, where this one compares them with its own.
+std::optional<Previous<KeptSamples>> Renderer::find_previous_samples(const FrameContext& frame) const {
+    if (!frame.plan.denoise.adapts || !gpu_scene_.is_changing() || history_.direct.empty())
+        return std::nullopt;
+    const DirectPlan& plan = frame.plan.direct;
+    return find_previous(frame, plan.reuse, history_.direct.front(), plan.targets.front());
+}
+
+Picture Renderer::compare_light(const FrameContext& frame, const GBuffer& gbuffer,
+                                const Previous<KeptSamples>& samples) const {
+    const auto present = history_.direct.front().of_frame(frame.frame);
+    return present ? find_light_changes(frame, gbuffer, samples, present->value()) : nullptr;
+}
+
+// Of both stages as one.
+ReflectedLight Renderer::denoise(const FrameContext& frame, const GBuffer& gbuffer, const NoisyLight& noisy) {
+    KeptLight kept;
+    const ReflectedLight light = denoiser_.record(frame, gbuffer, noisy, find_previous_light(frame), kept);
+    history_.denoised.keep(frame.frame, std::move(kept));
+    return light;
 }
 
 Picture Renderer::show(const FrameContext& frame, const DisplayInput& input, const Picture& radiance,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "frame/history.h"
+#include "passes/denoise/denoise.h"
 #include "passes/exposure.h"
 #include "passes/gbuffer.h"
 #include "passes/reuse/samples.h"
@@ -21,6 +22,7 @@ struct FrameHistory {
     std::vector<History<KeptSamples>> direct;  // one a target
     History<KeptSamples> indirect;
     History<Surfaces> coarse_surfaces;  // of indirect light on a coarse picture
+    History<KeptLight> denoised;
 
     void forget() { *this = {}; }
 };

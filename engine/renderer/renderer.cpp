@@ -175,6 +175,8 @@ std::map<std::string, std::uint64_t> Renderer::read_counters() const {
             {"bad_history", values[COUNTER_BAD_HISTORY]},
             {"mis_sums", values[COUNTER_MIS_SUM]},
             {"coarse_gaps", values[COUNTER_COARSE_GAP]},
+            {"bad_light", values[COUNTER_BAD_LIGHT]},
+            {"bad_light_history", values[COUNTER_BAD_LIGHT_HISTORY]},
             {"rejected_rays", rejected_rays_}};
 }
 

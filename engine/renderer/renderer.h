@@ -11,6 +11,7 @@
 #include "core/image.h"
 #include "frame/frame_recorder.h"
 #include "gl/program_library.h"
+#include "passes/denoise/denoise.h"
 #include "passes/display.h"
 #include "passes/exposure.h"
 #include "passes/frame_context.h"
@@ -103,6 +104,11 @@ class Renderer {
     ReflectedLight light_by_paths(const FrameContext& frame, const GBuffer& gbuffer);
     ReflectedLight reuse_paths(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,
                                const Samples& fresh);
+    std::optional<Previous<KeptLight>> find_previous_light(const FrameContext& frame) const;
+    std::optional<Previous<KeptSamples>> find_previous_samples(const FrameContext& frame) const;
+    Picture compare_light(const FrameContext& frame, const GBuffer& gbuffer,
+                          const Previous<KeptSamples>& samples) const;
+    ReflectedLight denoise(const FrameContext& frame, const GBuffer& gbuffer, const NoisyLight& noisy);
     Picture show(const FrameContext& frame, const DisplayInput& input, const Picture& radiance,
                  const GBuffer& gbuffer);
     void fit_light_tree();
@@ -131,6 +137,7 @@ class Renderer {
     Buffer coarse_frame_block_;  // of indirect light on a coarse picture
     Buffer counters_;
     GBufferPass gbuffer_;
+    Denoiser denoiser_;
     FrameHistory history_;
     Picture radiance_;   // the latest one
     Exposure exposure_;  // that of the latest frame that was shown

@@ -25,6 +25,11 @@ struct IndirectReusePart {
     const ReuseSettings& operator()(const RenderSettings& s) const { return s.indirect.reuse; }
 };
 
+struct DenoisePart {
+    DenoiseSettings& operator()(RenderSettings& s) const { return s.denoise; }
+    const DenoiseSettings& operator()(const RenderSettings& s) const { return s.denoise; }
+};
+
 void add_direct_rows(std::vector<Setting>& table) {
     using S = DirectSettings;
     SettingRows<DirectPart> rows(table, "");
@@ -178,6 +183,22 @@ void add_indirect_rows(std::vector<Setting>& table) {
                 &S::candidates, 1, 64);
 }
 
+void add_denoise_rows(std::vector<Setting>& table) {
+    using S = DenoiseSettings;
+    SettingRows<DenoisePart> rows(table, "");
+    rows.choose("denoise",
+                "Remove noise over time and neighbours: not at all, guided by variance (SVGF) with a history "
+                "that is cut short where light changes or without that, or by surfaces alone",
+                &S::mode, {"off", "svgf", "svgf-static", "bilateral"});
+    rows.where(&S::runs)
+        .number("denoise-steps", "",
+                "Steps of the filter over neighbours, each twice as wide as the one before", &S::steps, 1, 6)
+        .choose("denoise-kernel", "Pixels that a step of the filter looks at: 5, 9 or 25", &S::kernel,
+                {"cross", "3x3", "5x5"})
+        .number("denoise-history", "frames", "The history counts as so many frames at most", &S::history, 1,
+                63);
+}
+
 void add_view_rows(std::vector<Setting>& table) {
     SettingRows<DirectPart>(table, "").choose(
         "debug-view",
@@ -195,6 +216,7 @@ const std::vector<Setting>& setting_table() {
         add_visibility_reuse_row(rows);
         add_indirect_rows(rows);
         add_reuse_rows<IndirectReusePart>(rows, "indirect-", indirect_reuses);
+        add_denoise_rows(rows);
         add_view_rows(rows);
         return rows;
     }();

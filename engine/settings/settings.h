@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "settings/denoise_settings.h"
 #include "settings/direct_settings.h"
 #include "settings/indirect_settings.h"
 
@@ -14,6 +15,7 @@ namespace tarn {
 struct RenderSettings {
     DirectSettings direct;
     IndirectSettings indirect;
+    DenoiseSettings denoise;
 };
 
 // One row of the table. Values travel as doubles; a choice is the index into `choices`.

@@ -2,32 +2,14 @@
 //
 // After lib/frame.glsl and lib/receiver.glsl. Without TARN_MOTION no surface ever moved.
 
+#include "lib/previous_camera.glsl"
+
 layout(binding = UNIT_PREVIOUS_SURFACE) uniform sampler2DArray previous_layers;
-
-CameraRecord previous_camera() {
-    return unpack_camera(frame_previous_position, frame_previous_right, frame_previous_up,
-                         frame_previous_forward);
-}
-
-// Where the surface of `pixel` was in the last frame, relative to the world's origin.
-vec3 previous_position(ivec2 pixel) {
-#ifdef TARN_MOTION
-    return load_layer(pixel, LAYER_MOTION).xyz;
-#else
-    return load_layer(pixel, LAYER_POSITION).xyz;
-#endif
-}
 
 // The pixel through which the last frame's camera saw `position`, of a coarse picture the one whose block holds it;
 // outside of the picture where it did not.
 ivec2 project_to_previous(vec3 position) {
-    CameraRecord camera = previous_camera();
-    vec3 to_point = position - camera.position;
-    float depth = camera.orthographic ? 1.0f : dot(to_point, camera.forward);
-    if (!(depth > 0.0f)) return ivec2(-1);
-    float x = dot(to_point, camera.right) / (dot(camera.right, camera.right) * depth);
-    float y = dot(to_point, camera.up) / (dot(camera.up, camera.up) * depth);
-    vec2 position_px = vec2(0.5f + 0.5f * x, 0.5f - 0.5f * y) * vec2(frame_full.xy) - frame_jitter.zw;
+    vec2 position_px = find_previous_place(position);
     // Compared as floats: what lies far outside has no integer.
     if (!(position_px.x >= 0.0f && position_px.y >= 0.0f && position_px.x < float(frame_full.x) &&
           position_px.y < float(frame_full.y)))

@@ -87,6 +87,11 @@ TEST_P(ShaderVariants, PlantedBugsCompile) {
                             "TARN_PLANT_FORGET_OFFSET",
                             "TARN_PLANT_PRESENT_OFFSET",
                             "TARN_PLANT_DROP_UPSAMPLE_NORMALIZATION",
+                            "TARN_PLANT_NO_GEOMETRY_TEST",
+                            "TARN_PLANT_DROP_FILTER_NORMALIZATION",
+                            "TARN_PLANT_DROP_VARIANCE",
+                            "TARN_PLANT_UNSANITIZED",
+                            "TARN_PLANT_IGNORE_CHANGES",
                             "TARN_CHECK_MIS"}) {
         compile(SceneFeatures::all().back().defines() + Defines{bug} + GetParam().variants.front());
     }

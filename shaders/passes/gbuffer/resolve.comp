@@ -7,7 +7,8 @@
 //   diffuse   diffuse albedo, GGX alpha
 //   specular  F0, F90
 //   emission  radiance towards the viewer (the sky where nothing is seen)
-//   motion    where the surface was in the last frame, relative to the world's origin (TARN_MOTION alone)
+//   motion    where the surface was in the last frame, relative to the world's origin, and the number of its instance
+//             (TARN_MOTION alone)
 #include "lib/scene_buffers.glsl"
 #include "lib/frame.glsl"
 
@@ -89,6 +90,6 @@ void main() {
     vec2 barycentrics = intersect_triangle(ray, seen.x, seen.y);
     store_surface(pixel, evaluate_surface(seen.x, seen.y, barycentrics, ray.direction));
 #ifdef TARN_MOTION
-    imageStore(out_motion, pixel, vec4(load_previous_position(seen, barycentrics), 0.0f));
+    imageStore(out_motion, pixel, vec4(load_previous_position(seen, barycentrics), float(seen.x)));
 #endif
 }

@@ -21,6 +21,7 @@
 #define UNIT_PASS_B 12
 #define UNIT_PASS_C 13
 #define UNIT_PASS_D 14
+#define UNIT_PASS_E 15
 
 // Layers of a surface stack; what they hold: shaders/passes/gbuffer/resolve.comp.
 #define LAYER_POSITION 0

@@ -39,6 +39,9 @@ CONSTANT uint COUNTER_BAD_RESERVOIR = 2u;  // reservoirs emptied because their w
 CONSTANT uint COUNTER_BAD_HISTORY = 3u;  // reservoirs of the last frame that were not finite and were dropped
 CONSTANT uint COUNTER_MIS_SUM = 4u;      // samples whose MIS weights did not sum to 1 (TARN_CHECK_MIS alone)
 CONSTANT uint COUNTER_COARSE_GAP = 5u;   // pixels whose surface no coarse pixel near shows
-CONSTANT uint COUNTER_COUNT = 6u;
+CONSTANT uint COUNTER_BAD_LIGHT =
+    6u;  // pixels whose light the denoiser dropped: not finite, negative, or far above all around them
+CONSTANT uint COUNTER_BAD_LIGHT_HISTORY = 7u;  // pixels of the denoiser's history that were not finite
+CONSTANT uint COUNTER_COUNT = 8u;
 
 SHARED_END
