@@ -7,6 +7,7 @@
 #include "frame/history.h"
 #include "passes/exposure.h"
 #include "passes/gbuffer.h"
+#include "passes/indirect/cache.h"
 #include "passes/reuse/samples.h"
 #include "rays/ray_tracer.h"
 
@@ -20,6 +21,8 @@ struct FrameHistory {
     History<Exposure> exposure;
     std::vector<History<KeptSamples>> direct;  // one a target
     History<KeptSamples> indirect;
+    History<Picture> indirect_light;  // of the base, without its albedo: what paths find in view
+    History<CacheCells> cache_cells;
     History<Surfaces> coarse_surfaces;  // of indirect light on a coarse picture
 
     void forget() { *this = {}; }

@@ -175,6 +175,9 @@ std::map<std::string, std::uint64_t> Renderer::read_counters() const {
             {"bad_history", values[COUNTER_BAD_HISTORY]},
             {"mis_sums", values[COUNTER_MIS_SUM]},
             {"coarse_gaps", values[COUNTER_COARSE_GAP]},
+            {"bad_cache", values[COUNTER_BAD_CACHE]},
+            {"cache_clamped", values[COUNTER_CACHE_CLAMPED]},
+            {"cache_full", values[COUNTER_CACHE_FULL]},
             {"rejected_rays", rejected_rays_}};
 }
 

@@ -39,6 +39,9 @@ CONSTANT uint COUNTER_BAD_RESERVOIR = 2u;  // reservoirs emptied because their w
 CONSTANT uint COUNTER_BAD_HISTORY = 3u;  // reservoirs of the last frame that were not finite and were dropped
 CONSTANT uint COUNTER_MIS_SUM = 4u;      // samples whose MIS weights did not sum to 1 (TARN_CHECK_MIS alone)
 CONSTANT uint COUNTER_COARSE_GAP = 5u;   // pixels whose surface no coarse pixel near shows
-CONSTANT uint COUNTER_COUNT = 6u;
+CONSTANT uint COUNTER_BAD_CACHE = 6u;      // cached light, or light for the cache, that was not finite
+CONSTANT uint COUNTER_CACHE_CLAMPED = 7u;  // light for the cache beyond what its sums can count
+CONSTANT uint COUNTER_CACHE_FULL = 8u;     // places for which the cache had no cell left
+CONSTANT uint COUNTER_COUNT = 9u;
 
 SHARED_END
