@@ -114,8 +114,8 @@ ReflectedLight Renderer::light_by_paths(const FrameContext& frame, const GBuffer
                                             find_previous(frame, history_.cache_cells));
     const Paths paths = trace_paths(frame, gbuffer, slot, find_blue_noise(), cache);
     if (frame.plan.indirect.cache == IndirectCache::WORLD) {
-        history_.cache_cells.keep(frame.frame, update_cells(frame, slot, paths.states, cache.cells,
-                                                            estimate_irradiance(world_)));
+        history_.cache_cells.keep(
+            frame.frame, update_cells(frame, slot, paths.states, cache.cells, estimate_irradiance(world_)));
     }
     const ReflectedLight light = finish_paths(frame, gbuffer, slot, paths);
     if (frame.plan.indirect.cache == IndirectCache::SCREEN) {

@@ -18,6 +18,7 @@ namespace {
 
 // One path in so many by so many adds to the cache.
 constexpr int STEP_PX = 2;
+constexpr float LEAST_CELL_SHARE = 1.0f / 16.0f;
 // A sum counts 64 times the typical irradiance as 1, and its low word 2^-32 of that.
 constexpr double UNIT_IRRADIANCE = 64.0;
 constexpr glm::ivec2 BUCKETS_PX(int(CACHE_BUCKETS_WIDE), int(CACHE_BUCKETS / CACHE_BUCKETS_WIDE));
@@ -43,6 +44,7 @@ CachePaths plan_paths(const FrameContext& frame, const SampleSlot& slot, double 
     c.cache_offset_y = offset.y;
     // In the dark all samples are 0, and any unit will do.
     c.cache_unit = float(UNIT_IRRADIANCE * (typical_irradiance > 0.0 ? typical_irradiance : 1.0));
+    c.cache_cell_share = find_cell_share(frame);
     c.cache_limit = float(std::ldexp(1.0, 31) / double(paths.count));
     return paths;
 }
@@ -143,6 +145,11 @@ PathCache find_path_cache(const FrameContext& frame, const GBuffer& gbuffer,
     cache.light = light;
     cache.surfaces = gbuffer.previous;
     return cache;
+}
+
+float find_cell_share(const FrameContext& frame) {
+    const glm::ivec2 paths = coarse_size_px(frame.size_px, STEP_PX);
+    return std::max(LEAST_CELL_SHARE, 4.0f / std::sqrt(float(paths.x * paths.y)));
 }
 
 void read_path_cache(PassRecorder& pass, const PathCache& cache) {

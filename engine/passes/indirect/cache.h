@@ -27,6 +27,10 @@ PathCache find_path_cache(const FrameContext& frame, const GBuffer& gbuffer,
                           const std::optional<Previous<Picture>>& light,
                           const std::optional<Previous<CacheCells>>& cells);
 
+// Edge of a fine cell of the grid over its distance from the camera, at most: small pictures have few paths,
+// and need few cells.
+float find_cell_share(const FrameContext& frame);
+
 // Binds what lib/indirect/cached_light.glsl reads.
 void read_path_cache(PassRecorder& pass, const PathCache& cache);
 

@@ -17,6 +17,7 @@ IndirectConstants constants_for(const FrameContext& frame, const SampleSlot& slo
     constants.target_weights = glm::vec4(slot.target_weights, 0.0f);
     constants.bounce = std::uint32_t(bounce);
     constants.candidate_count = std::uint32_t(frame.plan.indirect.candidate_count);
+    constants.cache_cell_share = find_cell_share(frame);
     return constants;
 }
 

@@ -9,14 +9,17 @@
 // and keeps its shadows. Light of many bounces comes by feedback: a path that adds to a cell meets a further surface, and
 // brings from there what lamps send to it and what the cache of the last frame knows of it.
 //
+// Cells have two sizes, and each path adds to a cell of both: a fine one without many samples leans on the coarse one.
+//
 // Same seed, same bits, whatever the order of threads: a frame reads the cells of the last one, adds to sums of integers,
 // and asks for places by the greatest checksum; one thread for each bucket then makes the next cells of both
 // (passes/indirect/cache_resolve.comp). In a bucket the search goes from place to place.
 #include "shared/interface/radiance_cache.h"
 #include "shared/math/random.h"
 
-// Edge of a cell over its distance from the camera: between this and half of it.
-const float CACHE_CELL_SHARE = 1.0f / 16.0f;
+const int CACHE_SIZES = 2;
+const float CACHE_COARSE = 4.0f;          // edge of a coarse cell over that of a fine one
+const float CACHE_COARSE_WEIGHT = 4.0f;   // samples of a fine cell that all of a coarse one stand for at most
 
 #ifdef TARN_SMALL_CACHE
 const uint CACHE_BUCKETS_USED = 32u;  // of a test
@@ -34,10 +37,10 @@ struct CacheKey {
 float floor_to_power(float x) { return uintBitsToFloat(floatBitsToUint(x) & 0x7f800000u); }
 
 // The cell of a place: its normal to about 30 degrees, its position moved off the surface, so that rounding does not
-// spread a wall over two layers of cells.
-CacheKey find_cache_key(vec3 position, vec3 normal) {
+// spread a wall over two layers of cells. `size`: 0 is fine. After constants of a pass with `cache_cell_share`.
+CacheKey find_cache_key(vec3 position, vec3 normal, int size) {
     float distance = max(length(position - frame_camera().position), 1e-20f);
-    float edge = floor_to_power(distance * CACHE_CELL_SHARE);
+    float edge = floor_to_power(distance * cache_cell_share) * (size == 0 ? 1.0f : CACHE_COARSE);
     vec2 square = encode_octahedral(normal);
     ivec2 facing = ivec2(floor(2.0f * square + 0.5f));
 #ifdef TARN_PLANT_IGNORE_CACHE_NORMALS
@@ -80,11 +83,20 @@ int find_cache_place(usamplerBuffer cells, CacheKey key) {
     return place;
 }
 
-// Irradiance at a place by way of other surfaces, as the last frame knew it; 0 where it did not.
-vec3 load_cached_irradiance(usamplerBuffer cells, vec3 position, vec3 normal) {
-    CacheKey key = find_cache_key(position, normal);
+// Without weight where there is no such cell.
+CacheCell load_cache_cell(usamplerBuffer cells, CacheKey key) {
     int place = find_cache_place(cells, key);
     CacheCell cell = unpack_cache_cell(
         texelFetch(cells, int(key.bucket * CACHE_BUCKET_ROWS + CACHE_KEY_ROWS) + max(place, 0)));
-    return place >= 0 && cell.weight > 0.0f ? cell.irradiance : vec3(0.0f);
+    cell.weight = place >= 0 ? cell.weight : 0.0f;
+    return cell;
+}
+
+// Irradiance at a place by way of other surfaces, as the last frame knew it; 0 where it did not.
+vec3 load_cached_irradiance(usamplerBuffer cells, vec3 position, vec3 normal) {
+    CacheCell fine = load_cache_cell(cells, find_cache_key(position, normal, 0));
+    CacheCell coarse = load_cache_cell(cells, find_cache_key(position, normal, 1));
+    float share = min(coarse.weight, CACHE_COARSE_WEIGHT);
+    return (fine.irradiance * fine.weight + coarse.irradiance * share) *
+           ratio_or_zero(1.0f, fine.weight + share);
 }

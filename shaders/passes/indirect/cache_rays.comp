@@ -43,8 +43,10 @@ void main() {
         if (path.instance != INVALID_INDEX) {
             PathPlace place = load_place_at(path, 0u);
             ray = leave_place(path, place, pixel, index);
-            CacheKey key = find_cache_key(place.position, place.normal);
-            if (find_cache_place(cells, key) < 0) ask_for_place(key);
+            for (int size = 0; size < CACHE_SIZES; ++size) {
+                CacheKey key = find_cache_key(place.position, place.normal, size);
+                if (find_cache_place(cells, key) < 0) ask_for_place(key);
+            }
         }
     }
     uvec4 row0, row1;

@@ -19,7 +19,7 @@ layout(binding = UNIT_PASS_B) uniform usamplerBuffer sums;
 layout(std430, binding = 0) writeonly buffer Cells { uvec4 out_cells[]; };
 
 // Frames after which samples count 1 / e. Longer: less noise, but the cache lags behind lamps that change.
-const float CACHE_MEMORY = 16.0f;
+const float CACHE_MEMORY = 8.0f;
 const float CACHE_AGE_CAP = 128.0f;  // frames without a sample until a cell goes
 const float CACHE_IDLE_AGE = 16.0f;  // until it must make room for a new one
 

@@ -1,4 +1,4 @@
-// Paths that add to the radiance cache, last step: each adds the irradiance that it found to its cell.
+// Paths that add to the radiance cache, last step: each adds the irradiance that it found to its cells.
 //
 // Sums are integers of 64 bits in two words, so that they do not depend on the order of threads. What is not finite stays
 // out, and is counted.
@@ -56,7 +56,9 @@ void main() {
     if (index % 7u == 0u) irradiance.x = uintBitsToFloat(0x7fc00000u);
 #endif
     PathPlace place = load_place_at(path, 0u);
-    CacheKey key = find_cache_key(place.position, place.normal);
-    int found = find_cache_place(cells, key);
-    if (found >= 0) add_sample(sum_word(key.bucket, uint(found)), irradiance);
+    for (int size = 0; size < CACHE_SIZES; ++size) {
+        CacheKey key = find_cache_key(place.position, place.normal, size);
+        int found = find_cache_place(cells, key);
+        if (found >= 0) add_sample(sum_word(key.bucket, uint(found)), irradiance);
+    }
 }

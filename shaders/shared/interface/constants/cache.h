@@ -13,8 +13,9 @@ PASS_CONSTANTS(CacheConstants) {
     uint cache_step;      // one pixel in step x step has such a path
     uint cache_offset_x;  // which one
     uint cache_offset_y;
-    float cache_unit;   // irradiance that a sum counts as 1, W/m^2
-    float cache_limit;  // of one sample, in that unit: so many cannot overflow a sum
+    float cache_unit;        // irradiance that a sum counts as 1, W/m^2
+    float cache_limit;       // of one sample, in that unit: so many cannot overflow a sum
+    float cache_cell_share;  // edge of a fine cell over its distance from the camera, at most
 };
 
 SHARED_END
