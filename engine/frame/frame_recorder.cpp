@@ -70,6 +70,10 @@ PassRecorder::~PassRecorder() = default;
 
 PassRecorder& PassRecorder::read(unsigned unit, const Texture2D& texture) {
     frame_.check_written(texture.id(), true, name_, texture.name());
+    return read_unchecked(unit, texture);
+}
+
+PassRecorder& PassRecorder::read_unchecked(unsigned unit, const Texture2D& texture) {
     texture.bind(unit);
     bytes_read_ += texture.size_bytes();
     return *this;

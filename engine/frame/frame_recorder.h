@@ -74,6 +74,10 @@ class PassRecorder {
     PassRecorder& read(unsigned unit, const Previous<T>& /*value*/, const Rows& part) {
         return read_unchecked(unit, *part);
     }
+    template <class T>
+    PassRecorder& read(unsigned unit, const Previous<T>& /*value*/, const Picture& part) {
+        return read_unchecked(unit, *part);
+    }
     // A table that the CPU filled. What a pass reads of it is no traffic that could be told.
     PassRecorder& read_table(unsigned unit, const RowBuffer& rows);
     // The pass's own constants (shared/interface/constants), a copy of which it gets.
@@ -114,6 +118,7 @@ class PassRecorder {
     void run_on_cpu(const std::function<void()>& work);
 
   private:
+    PassRecorder& read_unchecked(unsigned unit, const Texture2D& texture);
     PassRecorder& read_unchecked(unsigned unit, const TextureArray& textures);
     PassRecorder& read_unchecked(unsigned unit, const RowBuffer& rows);
     PassRecorder& bind_constants(const void* bytes, std::size_t size_bytes);

@@ -53,12 +53,19 @@ std::vector<PlannedPass> list_passes(const IndirectPlan& plan) {
     const ReusePlan& reuse = plan.reuse;
     const bool samples = plan.keeps_samples;
     const bool is_coarse = plan.runs && plan.step_px > 1;
+    const bool fills_cache = plan.runs && plan.cache == IndirectCache::WORLD;
     return {
         {"indirect/surfaces", is_coarse, "some pixels stand for those around them"},
         {"indirect/rays", plan.runs, "a path goes on from each pixel"},
         {"indirect/hits", plan.runs, "and meets surfaces"},
         {"indirect/vertices", plan.runs, "which are lit by light samples"},
         {"indirect/shadows", plan.runs, "if these are seen"},
+        {"indirect/cache_rays", fills_cache, "some paths go on, for the cache"},
+        {"indirect/cache_hits", fills_cache, "and meet one surface more"},
+        {"indirect/cache_vertices", fills_cache, "which is lit by light samples and by the cache"},
+        {"indirect/cache_shadows", fills_cache, "if these are seen"},
+        {"indirect/cache_update", fills_cache, "what they find is added to their cells"},
+        {"indirect/cache_resolve", fills_cache, "cells age, come and go"},
         {"indirect/samples", plan.runs,
          samples ? "paths become samples for reuse" : "paths light their pixels"},
         {"indirect/temporal", samples && reuse.over_time, "the last frame's path samples are reused"},
@@ -106,6 +113,7 @@ IndirectPlan plan_indirect(const IndirectSettings& settings) {
     plan.candidate_count = settings.candidates;
     plan.sampling = settings.sampling;
     plan.noise = settings.noise;
+    plan.cache = settings.cache;
     plan.target_weights = glm::vec3(LUMINANCE_WEIGHTS);
     plan.reuse = plan_reuse(settings.reuse, settings.uses_restir(), DebugView::NONE);
     plan.reuse.step_px = plan.step_px;

@@ -62,6 +62,7 @@ struct IndirectPlan {
     int candidate_count = 1;
     IndirectSampling sampling = IndirectSampling::BRDF;
     NoiseKind noise = NoiseKind::WHITE;
+    IndirectCache cache = IndirectCache::OFF;
     glm::vec3 target_weights{0.0f};
     ReusePlan reuse;
 };

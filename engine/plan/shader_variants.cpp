@@ -160,11 +160,19 @@ Defines PathVerticesVariant::defines() const {
     Defines result;
     if (is_first) result.emplace_back("TARN_FIRST_VERTEX");
     if (is_last) result.emplace_back("TARN_LAST_VERTEX");
+    if (cache == IndirectCache::SCREEN) result.emplace_back("TARN_CACHE_SCREEN");
+    if (cache == IndirectCache::WORLD) result.emplace_back("TARN_CACHE_WORLD");
     return result;
 }
 
 std::vector<PathVerticesVariant> PathVerticesVariant::all() {
-    return {{true, true}, {true, false}, {false, true}, {false, false}};
+    std::vector<PathVerticesVariant> result;
+    for (const bool is_first : {true, false}) {
+        result.push_back({is_first, false});
+        for (const IndirectCache cache : {IndirectCache::OFF, IndirectCache::SCREEN, IndirectCache::WORLD})
+            result.push_back({is_first, true, cache});
+    }
+    return result;
 }
 
 Defines PathSamplesVariant::defines() const {
@@ -286,6 +294,10 @@ std::vector<ShaderFamily> shader_families() {
             family_of<UpsampleVariant>(),
             family_of<IndirectRaysVariant>(),
             family_of<PathVerticesVariant>(),
+            family_of<CacheRaysVariant>(),
+            family_of<CacheVerticesVariant>(),
+            family_of<CacheUpdateVariant>(),
+            family_of<CacheResolveVariant>(),
             family_of<PathSamplesVariant>(),
             family_of<IndirectTemporalVariant>(),
             family_of<IndirectBoilingFilterVariant>(),

@@ -128,8 +128,23 @@ struct PathVerticesVariant {
     static constexpr bool IS_OF_SCENE = true;
     bool is_first = true;
     bool is_last = true;
+    IndirectCache cache = IndirectCache::OFF;  // asked for what lies beyond the last surface
     Defines defines() const;
     static std::vector<PathVerticesVariant> all();
+};
+
+// The radiance cache in world space.
+struct CacheRaysVariant : PlainVariant<CacheRaysVariant> {
+    static constexpr const char* PATH = "indirect/cache_rays";
+};
+struct CacheVerticesVariant : PlainVariant<CacheVerticesVariant> {
+    static constexpr const char* PATH = "indirect/cache_vertices";
+};
+struct CacheUpdateVariant : PlainVariant<CacheUpdateVariant> {
+    static constexpr const char* PATH = "indirect/cache_update";
+};
+struct CacheResolveVariant : PlainVariant<CacheResolveVariant> {
+    static constexpr const char* PATH = "indirect/cache_resolve";
 };
 
 struct PathSamplesVariant {

@@ -10,6 +10,7 @@
 #include "passes/direct/reuse.h"
 #include "passes/direct/shade.h"
 #include "passes/enlarge.h"
+#include "passes/indirect/cache.h"
 #include "passes/indirect/coarse.h"
 #include "passes/indirect/paths.h"
 #include "passes/indirect/reuse.h"
@@ -146,7 +147,22 @@ ReflectedLight Renderer::light_coarsely(const FrameContext& frame, const GBuffer
 
 ReflectedLight Renderer::light_by_paths(const FrameContext& frame, const GBuffer& gbuffer) {
     const SampleSlot slot{0, 0, frame.plan.indirect.target_weights, {frame.frame, frame.seed, RAY_SHADOW}};
-    const Paths paths = trace_paths(frame, gbuffer, slot, find_blue_noise());
+    const PathCache cache = find_path_cache(frame, gbuffer, find_previous(frame, history_.indirect_light),
+                                            find_previous(frame, history_.cache_cells));
+    const Paths paths = trace_paths(frame, gbuffer, slot, find_blue_noise(), cache);
+    if (frame.plan.indirect.cache == IndirectCache::WORLD) {
+        history_.cache_cells.keep(
+            frame.frame, update_cells(frame, slot, paths.states, cache.cells, estimate_irradiance(world_)));
+    }
+    const ReflectedLight light = finish_paths(frame, gbuffer, slot, paths);
+    if (frame.plan.indirect.cache == IndirectCache::SCREEN) {
+        history_.indirect_light.keep(frame.frame, light.diffuse);
+    }
+    return light;
+}
+
+ReflectedLight Renderer::finish_paths(const FrameContext& frame, const GBuffer& gbuffer,
+                                      const SampleSlot& slot, const Paths& paths) {
     if (!frame.plan.indirect.keeps_samples) return finish_light(frame, gbuffer, slot, paths);
     return reuse_paths(frame, gbuffer, slot, finish_samples(frame, gbuffer, slot, paths));
 }

@@ -8,6 +8,7 @@
 #include "passes/denoise/denoise.h"
 #include "passes/exposure.h"
 #include "passes/gbuffer.h"
+#include "passes/indirect/cache.h"
 #include "passes/reuse/samples.h"
 #include "rays/ray_tracer.h"
 
@@ -21,6 +22,8 @@ struct FrameHistory {
     History<Exposure> exposure;
     std::vector<History<KeptSamples>> direct;  // one a target
     History<KeptSamples> indirect;
+    History<Picture> indirect_light;  // of the base, without its albedo: what paths find in view
+    History<CacheCells> cache_cells;
     History<Surfaces> coarse_surfaces;  // of indirect light on a coarse picture
     History<KeptLight> denoised;
 

@@ -177,6 +177,9 @@ std::map<std::string, std::uint64_t> Renderer::read_counters() const {
             {"coarse_gaps", values[COUNTER_COARSE_GAP]},
             {"bad_light", values[COUNTER_BAD_LIGHT]},
             {"bad_light_history", values[COUNTER_BAD_LIGHT_HISTORY]},
+            {"bad_cache", values[COUNTER_BAD_CACHE]},
+            {"cache_clamped", values[COUNTER_CACHE_CLAMPED]},
+            {"cache_full", values[COUNTER_CACHE_FULL]},
             {"rejected_rays", rejected_rays_}};
 }
 

@@ -18,6 +18,7 @@
 #include "passes/gbuffer.h"
 #include "passes/gpu_light_tree.h"
 #include "passes/gpu_scene.h"
+#include "passes/indirect/paths.h"
 #include "passes/reflected_light.h"
 #include "plan/frame_plan.h"
 #include "rays/ray_tracer.h"
@@ -102,6 +103,8 @@ class Renderer {
     ReflectedLight light_indirectly(const FrameContext& frame, const GBuffer& gbuffer);
     ReflectedLight light_coarsely(const FrameContext& frame, const GBuffer& gbuffer);
     ReflectedLight light_by_paths(const FrameContext& frame, const GBuffer& gbuffer);
+    ReflectedLight finish_paths(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,
+                                const Paths& paths);
     ReflectedLight reuse_paths(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,
                                const Samples& fresh);
     std::optional<Previous<KeptLight>> find_previous_light(const FrameContext& frame) const;

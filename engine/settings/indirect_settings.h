@@ -20,6 +20,13 @@ enum class NoiseKind { WHITE, BLUE };
 // Of the picture's pixels, along each axis.
 enum class IndirectResolution { FULL, HALF, QUARTER };
 
+// Where the light beyond the last surface of a path comes from.
+enum class IndirectCache {
+    OFF,     // from nowhere
+    SCREEN,  // what the last frame found, where that surface was in view
+    WORLD,   // a hash grid in world space
+};
+
 struct IndirectSettings {
     IndirectMode mode = IndirectMode::OFF;
     IndirectSampling sampling = IndirectSampling::BRDF;
@@ -27,6 +34,7 @@ struct IndirectSettings {
     IndirectResolution resolution = IndirectResolution::FULL;
     int bounces = 1;     // surfaces that light meets before the one that is seen
     int candidates = 4;  // light candidates at each of them
+    IndirectCache cache = IndirectCache::OFF;
     ReuseSettings reuse;
 
     bool runs() const { return mode != IndirectMode::OFF; }

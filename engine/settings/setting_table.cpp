@@ -180,7 +180,11 @@ void add_indirect_rows(std::vector<Setting>& table) {
             "better",
             &S::noise, {"white", "blue"})
         .number("indirect-candidates", "", "Light candidates at each surface that a path meets",
-                &S::candidates, 1, 64);
+                &S::candidates, 1, 64)
+        .choose("indirect-cache",
+                "Light of all further bounces, where paths end: none, what the last frame saw there, or a grid "
+                "in world space; biased",
+                &S::cache, {"off", "screen", "world"});
 }
 
 void add_denoise_rows(std::vector<Setting>& table) {

@@ -224,5 +224,20 @@ TEST(ReferenceDeterminism, ThreadsGiveTheSameBits) {
     }
 }
 
+// What a frame adds to a cache must not depend on the order of threads.
+TEST(CacheDeterminism, ThreadsGiveTheSameBits) {
+    for (const std::string cache : {"screen", "world"}) {
+        Pictures pictures("lantern_court, cache " + cache);
+        for (const std::string& threads : THREADS) {
+            const ProcessResult result =
+                run_tarn({"render", content_file("lantern_court").string(), "--size", "96x54", "--frames",
+                          "6", "--seed", "5", "--indirect", "restir", "--indirect-cache", cache, "--threads",
+                          threads, "--out", pictures.file(threads)});
+            ASSERT_EQ(result.status, 0) << result.err;
+            pictures.add(threads);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace tarn::test

@@ -17,6 +17,7 @@ IndirectConstants constants_for(const FrameContext& frame, const SampleSlot& slo
     constants.target_weights = glm::vec4(slot.target_weights, 0.0f);
     constants.bounce = std::uint32_t(bounce);
     constants.candidate_count = std::uint32_t(frame.plan.indirect.candidate_count);
+    constants.cache_cell_share = find_cell_share(frame);
     return constants;
 }
 
@@ -38,7 +39,7 @@ struct VertexRays {
 };
 
 VertexRays light_vertices(const FrameContext& frame, const SampleSlot& slot, int bounce, const Rows& hits,
-                          Paths& paths) {
+                          const PathCache& cache, Paths& paths) {
     const bool is_last = bounce + 1 == frame.plan.indirect.bounces;
     VertexRays rays;
     rays.shadow = frame.take_pixel_rows("indirect/shadow_rays", RAY_ROWS, BufferUse::SHARED);
@@ -52,7 +53,9 @@ VertexRays light_vertices(const FrameContext& frame, const SampleSlot& slot, int
         .count(BLOCK_COUNTERS, frame.counters);
     if (bounce > 0) pass.read(UNIT_PASS_B, paths.answers).read(UNIT_PASS_C, paths.states);
     if (rays.next) pass.write(2, rays.next);
-    pass.dispatch(frame.compute(PathVerticesVariant{bounce == 0, is_last}), frame.size_px);
+    if (is_last) read_path_cache(pass, cache);
+    const IndirectCache asked = is_last ? cache.kind : IndirectCache::OFF;
+    pass.dispatch(frame.compute(PathVerticesVariant{bounce == 0, is_last, asked}), frame.size_px);
     paths.states = states;
     return rays;
 }
@@ -70,7 +73,7 @@ PassRecorder& read_paths(PassRecorder& pass, const FrameContext& frame, const GB
 }  // namespace
 
 Paths trace_paths(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,
-                  const RowBuffer* blue_noise) {
+                  const RowBuffer* blue_noise, const PathCache& cache) {
     const std::size_t pixels = frame.pixel_count();
     Paths paths;
     Rows rays = write_first_rays(frame, gbuffer, slot, blue_noise);
@@ -78,7 +81,7 @@ Paths trace_paths(const FrameContext& frame, const GBuffer& gbuffer, const Sampl
         CoverageKey key = slot.shadow_key;
         if (bounce > 0) key.ray = RAY_BOUNCE + std::uint32_t(bounce);
         const Rows hits = trace_closest_hits(frame, "indirect/hits", rays, pixels, key);
-        const VertexRays further = light_vertices(frame, slot, bounce, hits, paths);
+        const VertexRays further = light_vertices(frame, slot, bounce, hits, cache, paths);
         paths.answers = trace_visibility(frame, "indirect/shadows", further.shadow, pixels, slot.shadow_key);
         rays = further.next;
     }

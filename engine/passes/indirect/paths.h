@@ -2,6 +2,7 @@
 #pragma once
 
 #include "passes/gbuffer.h"
+#include "passes/indirect/cache.h"
 #include "passes/reflected_light.h"
 #include "passes/reuse/samples.h"
 
@@ -15,9 +16,9 @@ struct Paths {
 
 // `blue_noise`: the mask, where the plan asks for it. Traces `frame.plan.indirect.bounces` surfaces far. Rays
 // of the first leg meet partly covered surfaces by `slot.shadow_key`, as the rays that later test the samples
-// do: what one has seen the other sees.
+// do: what one has seen the other sees. What lies beyond the last surface comes out of `cache`.
 Paths trace_paths(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,
-                  const RowBuffer* blue_noise);
+                  const RowBuffer* blue_noise, const PathCache& cache);
 
 // A fresh sample of each path.
 Samples finish_samples(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,

@@ -30,6 +30,13 @@ PathSample further_sample(PathState s) {
     further.incident_direction = s.further_direction;
     further.incident = s.further;
     further.light = no_light_sample();
+    // Irradiance reaches the base alone: as from straight above a surface without a layer.
+    if (s.further_is_irradiance) {
+        further.incident_direction = further.shading_normal;
+        further.material.f0 = vec3(0.0f);
+        further.material.f90 = 0.0f;
+        further.material.alpha = 1.0f;
+    }
     return further;
 }
 

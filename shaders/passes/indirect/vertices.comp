@@ -2,6 +2,7 @@
 // tests it, and the ray on which the path goes on.
 //
 // TARN_FIRST_VERTEX: the surface becomes the place of the pixel's sample. TARN_LAST_VERTEX: the path ends here.
+// TARN_CACHE_SCREEN, TARN_CACHE_WORLD: what lies beyond the path's end comes out of a cache (lib/indirect/cached_light.glsl).
 // Emission counts nowhere: light sampling finds all of it, and what a pixel sees directly is direct light's.
 #include "shared/interface/constants/indirect.h"
 #include "lib/scene_buffers.glsl"
@@ -12,12 +13,19 @@
 #include "lib/indirect/directions.glsl"
 #include "lib/indirect/next_event.glsl"
 #include "lib/indirect/path_state.glsl"
+#ifdef TARN_CACHE_WORLD
+#include "lib/indirect/world_cache.glsl"
+#endif
+#include "lib/indirect/cached_light.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = UNIT_PASS_A) uniform usamplerBuffer hits;
 layout(binding = UNIT_PASS_B) uniform samplerBuffer answers;          // of the vertex before
 layout(binding = UNIT_PASS_C) uniform usamplerBuffer in_path_states;  // of the vertex before
+#ifdef TARN_CACHE_WORLD
+layout(binding = UNIT_PASS_D) uniform usamplerBuffer cache_cells;  // of the last frame
+#endif
 layout(std430, binding = 0) writeonly buffer PathStates { uvec4 out_states[]; };
 layout(std430, binding = 1) writeonly buffer ShadowRays { uvec4 out_shadow_rays[]; };
 layout(std430, binding = 2) writeonly buffer Rays { uvec4 out_rays[]; };
@@ -30,7 +38,7 @@ void store_state(uint pixel, PathState s) {
     out_states[row + 1u] = place;
     out_states[row + 2u] = material;
     out_states[row + 3u] = light;
-    out_states[row + 4u] = pack_row(s.further, 0u);
+    out_states[row + 4u] = pack_row(s.further, s.further_is_irradiance ? 1u : 0u);
     out_states[row + 5u] = pack_row(s.throughput, 0u);
     out_states[row + 6u] = pack_row(s.waiting, 0u);
 }
@@ -57,6 +65,7 @@ PathState start_state(uint pixel) {
     s.place = no_path_sample();
     s.further_direction = vec3(0.0f, 0.0f, 1.0f);
     s.further = vec3(0.0f);
+    s.further_is_irradiance = false;
     s.throughput = vec3(0.0f);
 #else
     s = load_path_state(in_path_states, pixel);
@@ -100,6 +109,32 @@ RayRecord continue_path(inout PathState s, Receiver r, RandomKey key, uint pixel
     return ray;
 }
 
+#ifdef TARN_CACHE
+void add_cached_light(inout PathState s, HitRecord hit, Receiver r, vec3 emission) {
+#ifdef TARN_CACHE_SCREEN
+    vec3 irradiance = find_light_in_view(hit, r);
+#else
+    vec3 irradiance = find_base_irradiance(cache_cells, r);
+#endif
+#ifdef TARN_PLANT_COUNT_EMISSION
+    irradiance += PI * emission;
+#endif
+#ifdef TARN_PLANT_ALBEDO_TWICE
+    irradiance *= r.point.material.diffuse_albedo;
+#endif
+    if (!is_finite3(irradiance)) {
+        count_event(COUNTER_BAD_CACHE);
+        irradiance = vec3(0.0f);
+    }
+#ifdef TARN_FIRST_VERTEX
+    s.further = irradiance;
+    s.further_is_irradiance = true;
+#else
+    s.further += s.throughput * r.point.material.diffuse_albedo * base_to_viewer(r) * irradiance;
+#endif
+}
+#endif
+
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
     if (is_outside(at)) return;
@@ -126,6 +161,9 @@ void main() {
 #endif
             s.waiting = s.throughput * light.contribution_weight *
                         join_parts(r.point.material, reflect_at(r, light.incident));
+#endif
+#ifdef TARN_CACHE
+            add_cached_light(s, hit, r, surface.emission);
 #endif
             next_ray = continue_path(s, r, key, pixel);
         }

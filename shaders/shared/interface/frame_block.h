@@ -42,6 +42,9 @@ CONSTANT uint COUNTER_COARSE_GAP = 5u;   // pixels whose surface no coarse pixel
 CONSTANT uint COUNTER_BAD_LIGHT =
     6u;  // pixels whose light the denoiser dropped: not finite, negative, or far above all around them
 CONSTANT uint COUNTER_BAD_LIGHT_HISTORY = 7u;  // pixels of the denoiser's history that were not finite
-CONSTANT uint COUNTER_COUNT = 8u;
+CONSTANT uint COUNTER_BAD_CACHE = 8u;          // cached light, or light for the cache, that was not finite
+CONSTANT uint COUNTER_CACHE_CLAMPED = 9u;      // light for the cache beyond what its sums can count
+CONSTANT uint COUNTER_CACHE_FULL = 10u;        // places for which the cache had no cell left
+CONSTANT uint COUNTER_COUNT = 11u;
 
 SHARED_END

@@ -72,6 +72,7 @@ CONSTANT uint DIMENSION_INDIRECT_TEMPORAL = 12288u;  // indirect light: as above
 CONSTANT uint DIMENSION_INDIRECT_SPATIAL = 12352u;
 CONSTANT uint DIMENSION_INDIRECT = 16384u;  // + DIMENSIONS_PER_BOUNCE * bounce
 CONSTANT uint DIMENSIONS_PER_BOUNCE = 512u;
+CONSTANT uint DIMENSION_CACHE = 28672u;  // paths that add to the radiance cache; below 29696
 CONSTANT uint DIMENSIONS_PER_SAMPLE = 65536u;  // direct light: further samples of a pixel begin here
 CONSTANT uint RAY_CAMERA = 0u;
 CONSTANT uint RAY_SHADOW = 1u;

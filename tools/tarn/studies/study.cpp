@@ -74,6 +74,7 @@ void add_study_command(CLI::App& app) {
     add_light_count_study(*study);
     add_fault_study(*study);
     add_lag_study(*study);
+    add_cache_study(*study);
 }
 
 }  // namespace tarn

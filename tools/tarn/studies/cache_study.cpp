@@ -1,0 +1,180 @@
+// tarn study cache: what light of many bounces costs, and what of it arrives: paths of several bounces beside
+// paths of one whose further light comes out of a cache. Direct light is taken out of all pictures: it is the
+// same, bit by bit, with and without indirect light.
+#include "core/error.h"
+#include "core/statistics.h"
+#include "find_truth.h"
+#include "interrupt.h"
+#include "metrics/image_error.h"
+#include "studies/study.h"
+
+namespace tarn {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct CacheStudy {
+    RenderOptions options;
+    int seeds = 2;
+    int warm_up = 32;
+    int frames = 8;
+    int reference_spp = 256;
+};
+
+constexpr int ALL_BOUNCES = 59;  // surfaces before the one that is seen: the reference takes no more
+
+struct Variant {
+    IndirectCache cache;
+    int bounces;
+    const char* name;
+};
+
+constexpr Variant VARIANTS[] = {
+    {IndirectCache::OFF, 1, "1"},
+    {IndirectCache::OFF, 2, "2"},
+    {IndirectCache::OFF, 4, "4"},
+    {IndirectCache::OFF, 8, "8"},
+    {IndirectCache::SCREEN, 1, "1, screen"},
+    {IndirectCache::WORLD, 1, "1, world"},
+};
+
+Image subtract(Image a, const Image& b) {
+    for (std::size_t i = 0; i < a.values.size(); ++i) a.values[i] -= b.values[i];
+    return a;
+}
+
+double mean_of(const Image& image) {
+    return mean_value({image, image}, 0);
+}
+
+struct Run {
+    std::vector<Image> frames;  // after the warm-up
+    RunningMoments indirect_ms;
+};
+
+Run render_run(RenderSession& session, const CacheStudy& study, const RenderSettings& settings,
+               std::uint32_t seed) {
+    Run run;
+    FrameInput input;
+    input.camera = choose_camera(study.options.scene, session.loaded().scene, session.loaded().world);
+    input.settings = settings;
+    input.seed = seed;
+    session.renderer().reset_history();
+    for (int i = 0; i < study.warm_up + study.frames; ++i) {
+        if (interrupt_flag()) throw Error("interrupted");
+        input.frame = std::uint32_t(i);
+        const FrameOutput output = session.renderer().render(input);
+        if (i < study.warm_up) continue;
+        double ms = 0.0;
+        for (const PassTiming& pass : output.timings.passes) {
+            if (pass.name.starts_with("indirect/")) ms += pass.ms;
+        }
+        run.indirect_ms.add(ms);
+        run.frames.push_back(session.renderer().read_radiance(output.radiance));
+    }
+    return run;
+}
+
+// Light of `bounces` surfaces before the one that is seen, without direct light.
+class IndirectReferences {
+  public:
+    IndirectReferences(RenderSession& session, const CacheStudy& study)
+        : session_(session), study_(study), direct_(render(1)) {}
+
+    Image find(int bounces) { return subtract(render(bounces + 1), direct_); }
+
+  private:
+    Image render(int bounces) {
+        const SceneOptions& scene = study_.options.scene;
+        const CameraRecord camera = choose_camera(scene, session_.loaded().scene, session_.loaded().world);
+        return find_reference(
+                   session_, truth_settings(scene.width, scene.height, camera, study_.reference_spp, bounces))
+            .radiance;
+    }
+
+    RenderSession& session_;
+    const CacheStudy& study_;
+    Image direct_;
+};
+
+struct Measured {
+    RunningMoments energy;  // mean radiance of indirect light
+    RunningMoments rel_mse;
+    RunningMoments ms;
+};
+
+Measured measure(RenderSession& session, const CacheStudy& study, const Variant& variant, const Image& all) {
+    RenderSettings with = study.options.settings;
+    with.indirect.cache = variant.cache;
+    with.indirect.bounces = variant.bounces;
+    RenderSettings without = with;
+    without.indirect.mode = IndirectMode::OFF;
+    Measured measured;
+    for (int k = 0; k < study.seeds; ++k) {
+        const std::uint32_t seed = study.options.scene.seed + std::uint32_t(k);
+        const Run direct = render_run(session, study, without, seed);
+        const Run run = render_run(session, study, with, seed);
+        for (std::size_t i = 0; i < run.frames.size(); ++i) {
+            const Image indirect = subtract(run.frames[i], direct.frames[i]);
+            measured.energy.add(mean_of(indirect));
+            measured.rel_mse.add(compute_image_errors(all, indirect).rel_mse);
+        }
+        measured.ms.add(run.indirect_ms.mean());
+    }
+    return measured;
+}
+
+void run(const CacheStudy& study) {
+    check_output_folder(study.options.json_file);
+    if (!study.options.settings.indirect.runs()) throw Error("study cache: needs --indirect path or restir");
+    RenderSession session(study.options);
+    IndirectReferences references(session, study);
+    const Image all = references.find(ALL_BOUNCES);
+    const double all_energy = mean_of(all);
+    Json rows = Json::array();
+    fmt::print("{:<12} {:>26} {:>26} {:>10} {:>14}\n", "bounces", "energy / as many bounces",
+               "energy / all bounces", "relMSE", "indirect [ms]");
+    for (const Variant& variant : VARIANTS) {
+        const Measured m = measure(session, study, variant, all);
+        const bool ends = variant.cache == IndirectCache::OFF;
+        const double same = ends ? mean_of(references.find(variant.bounces)) : all_energy;
+        fmt::print("{:<12} {:>26.4f} {:>26.4f} {:>10.4f} {:>14.1f}\n", variant.name, m.energy.mean() / same,
+                   m.energy.mean() / all_energy, m.rel_mse.mean(), m.ms.mean());
+        rows.push_back({{"variant", variant.name},
+                        {"energy_of_as_many_bounces", m.energy.mean() / same},
+                        {"energy_of_all_bounces", m.energy.mean() / all_energy},
+                        {"rel_mse", m.rel_mse.mean()},
+                        {"indirect_ms", m.ms.mean()}});
+    }
+    if (study.options.json_file.empty()) return;
+    write_json(study.options.json_file, {{"study", "cache"},
+                                         {"machine", session.describe_machine()},
+                                         {"seeds", study.seeds},
+                                         {"warm_up", study.warm_up},
+                                         {"frames", study.frames},
+                                         {"variants", rows}});
+}
+
+}  // namespace
+
+void add_cache_study(CLI::App& app) {
+    auto study = std::make_shared<CacheStudy>();
+    CLI::App* sub = app.add_subcommand(
+        "cache", "What light of many bounces costs with and without a cache, and its bias");
+    study->options.scene.scene = "cornell";
+    study->options.scene.width = 320;
+    study->options.scene.height = 180;
+    study->options.settings.indirect.mode = IndirectMode::RESTIR;
+    add_render_options(*sub, study->options);
+    sub->get_option("SCENE")->required(false);
+    const auto add_count = [&](const char* name, int& value, const char* what) {
+        sub->add_option(name, value, what)->check(CLI::Range(1, 65536))->capture_default_str();
+    };
+    add_count("--seeds", study->seeds, "Independent seeds");
+    add_count("--warm-up", study->warm_up, "Frames that fill the history");
+    add_count("--frames", study->frames, "Frames that are measured after the warm-up");
+    add_count("--reference-spp", study->reference_spp, "Samples per pixel of the references");
+    sub->callback([study] { run(*study); });
+}
+
+}  // namespace tarn
