@@ -118,6 +118,7 @@ ReflectedLight Renderer::reuse_paths(const FrameContext& frame, const GBuffer& g
                                      const SampleSlot& slot, const Samples& fresh) {
     const ReusedSamples reused =
         reuse_samples(frame, indirect_reuse(frame), gbuffer, slot, fresh, history_.indirect);
+    if (tests_lamps(frame)) history_.paths_may_be_stale = false;
     if (reused.light) return reused.light;
     Answers seen;
     // Without anything merged the samples are fresh: their pixels see them.

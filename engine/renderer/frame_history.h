@@ -20,6 +20,7 @@ struct FrameHistory {
     History<Exposure> exposure;
     std::vector<History<KeptSamples>> direct;  // one a target
     History<KeptSamples> indirect;
+    bool paths_may_be_stale = false;  // something has changed since their lamps were asked for (tests_lamps)
     History<Surfaces> coarse_surfaces;  // of indirect light on a coarse picture
 
     void forget() { *this = {}; }

@@ -27,6 +27,7 @@ struct IndirectSettings {
     IndirectResolution resolution = IndirectResolution::FULL;
     int bounces = 1;     // surfaces that light meets before the one that is seen
     int candidates = 4;  // light candidates at each of them
+    int validation = 4;  // frames after which kept samples are asked again for their lamps; 0: never
     ReuseSettings reuse;
 
     bool runs() const { return mode != IndirectMode::OFF; }

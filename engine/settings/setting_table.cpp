@@ -178,6 +178,19 @@ void add_indirect_rows(std::vector<Setting>& table) {
                 &S::candidates, 1, 64);
 }
 
+// What kept path samples know of their lamps grows old; where the weights trace, it is asked anew at once.
+void add_validation_row(std::vector<Setting>& table) {
+    SettingRows<IndirectPart>(table, "")
+        .where([](const RenderSettings& s) {
+            const ReuseSettings& reuse = s.indirect.reuse;
+            return indirect_reuses(s) && reuse.reuses_time() && !reuse.traces_in_mis();
+        })
+        .number("indirect-validation", "frames",
+                "restir: while things change, test by rays every so many frames whether kept samples still see "
+                "their lamps; 0: never. With indirect-mis-visibility it is tested in every frame",
+                &IndirectSettings::validation, 0, 64);
+}
+
 void add_view_rows(std::vector<Setting>& table) {
     SettingRows<DirectPart>(table, "").choose(
         "debug-view",
@@ -195,6 +208,7 @@ const std::vector<Setting>& setting_table() {
         add_visibility_reuse_row(rows);
         add_indirect_rows(rows);
         add_reuse_rows<IndirectReusePart>(rows, "indirect-", indirect_reuses);
+        add_validation_row(rows);
         add_view_rows(rows);
         return rows;
     }();

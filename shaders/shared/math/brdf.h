@@ -29,7 +29,7 @@ SHARED_BEGIN
 
 // What the BRDF needs of a surface; textures and factors are already multiplied in.
 struct SurfaceMaterial {
-    vec3 diffuse_albedo;  // base colour * (1 - metallic)
+    vec3 diffuse_albedo;  // base colour * (1 - metallic), made whole under the layer (mix_material)
     vec3 f0;              // reflectance at normal incidence
     float f90;            // reflectance at grazing incidence; f0 = f90 = 0 is a pure Lambert surface
     float alpha;          // GGX width, roughness^2, at least MIN_ALPHA
@@ -123,6 +123,29 @@ FN vec3 transmit_to_base(SurfaceMaterial m, vec3 multiple_fresnel, LayerAlbedo a
 FN vec3 mean_multiple_fresnel(SurfaceMaterial m, float mean_loss) {
     vec3 mean = m.f0 + (vec3(m.f90) - m.f0) * (1.0f / 21.0f);
     return mean * mean * (1.0f - mean_loss) / (vec3(1.0f) - mean * mean_loss);
+}
+
+// glTF's mix of the two BRDFs of a dielectric (`dielectric_f0`, `dielectric_f90`) and a metal (`base_color`).
+// Their layers are one layer with mixed f0 and f90, since Schlick's term is linear in both. But the base lies
+// under the dielectric's layer alone, which lets more through than the mixed one: its albedo makes up for
+// that, on the mean over all directions. Without it (as in the sample formula of appendix B) white surfaces
+// lose a quarter of the light halfway between.
+FN SurfaceMaterial mix_material(vec3 base_color, float metallic, vec3 dielectric_f0, float dielectric_f90,
+                                float alpha) {
+    SurfaceMaterial dielectric;
+    dielectric.diffuse_albedo = base_color * (1.0f - metallic);
+    dielectric.f0 = dielectric_f0;
+    dielectric.f90 = dielectric_f90;
+    dielectric.alpha = alpha;
+    SurfaceMaterial m = dielectric;
+    m.f0 = mix(dielectric_f0, base_color, metallic);
+    m.f90 = mix(dielectric_f90, 1.0f, metallic);
+    LayerAlbedo mean = evaluate_mean_layer_albedo(alpha);
+    vec3 through_dielectric = transmit_to_base(dielectric, mean_multiple_fresnel(dielectric, mean.loss), mean);
+    vec3 through_mix = transmit_to_base(m, mean_multiple_fresnel(m, mean.loss), mean);
+    m.diffuse_albedo =
+        m.diffuse_albedo * through_dielectric / max(through_mix, vec3(LEAST_TRANSMISSION));
+    return m;
 }
 
 // Probability of sampling the layer's single scattering. All else follows the cosine closely, so that its

@@ -14,6 +14,7 @@ PASS_CONSTANTS(ReuseConstants) {
     float confidence_cap;  // of the history, as a multiple of the fresh sample's
     float age_cap;         // frames after which a sample is dropped; 0: never
     uint permute;          // 1: neighbours of a pixel swap their histories
+    uint carried_rays;     // first ray of a pixel that asks for the light that samples carry; INVALID_INDEX: none
     // Over space.
     float radius_px;
     uint iteration;
