@@ -44,7 +44,7 @@ struct DirectPlan {
     bool brdf_rays = false;
     int candidate_count = 1;
     int sample_count = 1;            // independent samples a pixel
-    std::vector<glm::vec3> targets;  // weights of the channels in the target: luminance, or each channel
+    std::vector<glm::vec4> targets;  // SampleSlot::target_weights: luminance, or each channel
     ReusePlan reuse;
     DebugView view = DebugView::NONE;
 };
@@ -57,8 +57,9 @@ struct IndirectPlan {
     int candidate_count = 1;
     IndirectSampling sampling = IndirectSampling::BRDF;
     NoiseKind noise = NoiseKind::WHITE;
-    glm::vec3 target_weights{0.0f};
+    std::vector<glm::vec4> targets;  // as above; a sample for each
     ReusePlan reuse;
+    DebugView view = DebugView::NONE;  // of the chosen path samples
 };
 
 // A pass that this frame runs or leaves out.

@@ -102,7 +102,7 @@ class Renderer {
     ReflectedLight light_coarsely(const FrameContext& frame, const GBuffer& gbuffer);
     ReflectedLight light_by_paths(const FrameContext& frame, const GBuffer& gbuffer);
     ReflectedLight reuse_paths(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,
-                               const Samples& fresh);
+                               const Samples& fresh, const ReflectedLight& earlier);
     Picture show(const FrameContext& frame, const DisplayInput& input, const Picture& radiance,
                  const GBuffer& gbuffer);
     void fit_light_tree();

@@ -178,6 +178,19 @@ void add_indirect_rows(std::vector<Setting>& table) {
                 &S::candidates, 1, 64);
 }
 
+void add_indirect_target_row(std::vector<Setting>& table) {
+    SettingRows<IndirectPart>(table, "")
+        .where([](const RenderSettings& s) {
+            return indirect_reuses(s) && s.indirect.reuse.reuse != Reuse::NONE;
+        })
+        .choose(
+            "indirect-target",
+            "restir: what path samples are kept in proportion to: the luminance of their light, that of what "
+            "the surface reflects of it, or each channel of that with a sample of its own (no colour noise, "
+            "three times the cost of reuse)",
+            &IndirectSettings::target, {"luminance", "brdf", "channel"});
+}
+
 // What kept path samples know of their lamps grows old; where the weights trace, it is asked anew at once.
 void add_validation_row(std::vector<Setting>& table) {
     SettingRows<IndirectPart>(table, "")
@@ -185,17 +198,24 @@ void add_validation_row(std::vector<Setting>& table) {
             const ReuseSettings& reuse = s.indirect.reuse;
             return indirect_reuses(s) && reuse.reuses_time() && !reuse.traces_in_mis();
         })
-        .number("indirect-validation", "frames",
-                "restir: while things change, test by rays every so many frames whether kept samples still see "
-                "their lamps; 0: never. With indirect-mis-visibility it is tested in every frame",
-                &IndirectSettings::validation, 0, 64);
+        .number(
+            "indirect-validation", "frames",
+            "restir: while things change, test by rays every so many frames whether kept samples still see "
+            "their lamps; 0: never. With indirect-mis-visibility it is tested in every frame",
+            &IndirectSettings::validation, 0, 64);
 }
 
 void add_view_rows(std::vector<Setting>& table) {
     SettingRows<DirectPart>(table, "").choose(
         "debug-view",
-        "Show the visibility of the chosen samples, their light without it, or which they are, in colours",
-        &DirectSettings::debug_view, {"none", "visibility", "unshadowed", "samples"});
+        "Show the visibility of the chosen samples, their light without it, or which they are, in colours; "
+        "or of "
+        "the path samples of indirect=restir: direction, distance [m] and normal of the place, its radiance, "
+        "the "
+        "contribution weight, the age [frames]",
+        &DirectSettings::debug_view,
+        {"none", "visibility", "unshadowed", "samples", "path-direction", "path-distance", "path-normal",
+         "path-radiance", "path-weight", "path-age"});
 }
 
 }  // namespace
@@ -208,6 +228,7 @@ const std::vector<Setting>& setting_table() {
         add_visibility_reuse_row(rows);
         add_indirect_rows(rows);
         add_reuse_rows<IndirectReusePart>(rows, "indirect-", indirect_reuses);
+        add_indirect_target_row(rows);
         add_validation_row(rows);
         add_view_rows(rows);
         return rows;

@@ -83,9 +83,16 @@ IncidentLight place_light(PathSample path, PathPlace place, vec3 point) {
     return light;
 }
 
-// p-hat without visibility.
+// p-hat of light at a receiver, without visibility. With `target_weights`.w that of the light itself, wherever the surface
+// may reflect it (Ouyang et al. 2021, section 4.2).
+float path_target(Receiver r, IncidentLight light) {
+    if (target_weights.w == 0.0f) return target_at(r, light);
+    bool is_before = dot(r.point.geometric_normal, light.direction) > 0.0f;
+    return is_before ? target_function(light.value, target_weights.xyz) : 0.0f;
+}
+
 float sample_target(Receiver r, SAMPLE drawn) {
-    return target_at(r, place_light(drawn.path, drawn.place, r.point.position));
+    return path_target(r, place_light(drawn.path, drawn.place, r.point.position));
 }
 
 // What the sample sends to the viewer if it is seen, not yet weighed by W.

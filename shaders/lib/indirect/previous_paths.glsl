@@ -40,8 +40,10 @@ void renew_surface(inout PathSample path, PathPlace place, uint instance_offset)
     // A loop that runs at most once: a software GPU skips it where no lane enters.
     uint changed = is_changed(path.instance) ? 1u : 0u;
     for (; changed != 0u; changed = 0u) {
-        ShadingPoint point = evaluate_surface(path.instance + instance_offset, path.primitive & ~PATH_BACK_FACE,
-                                              path.barycentrics, -place.normal).point;
+        ShadingPoint point =
+            evaluate_surface(path.instance + instance_offset, path.primitive & ~PATH_BACK_FACE,
+                             path.barycentrics, -place.normal)
+                .point;
         path.shading_normal = unpack_direction(pack_direction(point.shading_normal));
         path.material = unpack_surface_material(pack_surface_material(point.material));
     }
@@ -133,8 +135,10 @@ SAMPLE move_to_present(SAMPLE drawn) { return drawn; }
 // Whether a ray can ask: of light from further surfaces nobody knows what it was.
 bool can_ask_for_carried(SAMPLE drawn) { return drawn.path.light.light != INVALID_INDEX; }
 
-RayRecord ray_to_lamp(PathSample path, PathPlace place, IncidentLight incident, float light_error, ivec2 pixel) {
-    if (!(max_component(path.incident) > 0.0f) || !(max_component(incident.value) > 0.0f)) return inactive_ray();
+RayRecord ray_to_lamp(PathSample path, PathPlace place, IncidentLight incident, float light_error,
+                      ivec2 pixel) {
+    if (!(max_component(path.incident) > 0.0f) || !(max_component(incident.value) > 0.0f))
+        return inactive_ray();
     ShadingPoint point;
     point.position = place.position;
     point.position_error = place.error;
@@ -207,7 +211,8 @@ float temporal_jacobian(Receiver previous_receiver, Receiver here, SAMPLE presen
 
 // p-hat in the last frame, of a receiver and a sample of the last frame.
 float previous_sample_target(Receiver previous, SAMPLE drawn) {
-    return target_at(previous, place_light(drawn.path, load_previous_place(drawn), previous.point.position));
+    return path_target(previous,
+                       place_light(drawn.path, load_previous_place(drawn), previous.point.position));
 }
 
 // A ray of the last frame: to where the place was, past what stood in its way then.

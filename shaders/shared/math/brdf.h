@@ -125,26 +125,37 @@ FN vec3 mean_multiple_fresnel(SurfaceMaterial m, float mean_loss) {
     return mean * mean * (1.0f - mean_loss) / (vec3(1.0f) - mean * mean_loss);
 }
 
-// glTF's mix of the two BRDFs of a dielectric (`dielectric_f0`, `dielectric_f90`) and a metal (`base_color`).
-// Their layers are one layer with mixed f0 and f90, since Schlick's term is linear in both. But the base lies
-// under the dielectric's layer alone, which lets more through than the mixed one: its albedo makes up for
-// that, on the mean over all directions. Without it (as in the sample formula of appendix B) white surfaces
-// lose a quarter of the light halfway between.
+// The share of evenly arriving light that the layer lets through, on the mean over all directions.
+FN vec3 mean_transmission(SurfaceMaterial m, LayerAlbedo mean) {
+    return transmit_to_base(m, mean_multiple_fresnel(m, mean.loss), mean);
+}
+
+// glTF's mix of the BRDFs of a dielectric (`dielectric_f0`, `dielectric_f90`) and a metal (`base_color`):
+// specification, appendix B.2. Their layers become one with mixed f0 and f90, exact for single scattering,
+// since Schlick's term is linear in both. What is left of the energy of the true mix goes to the base: the
+// dielectric's own, which lies under a layer that lets more through than the mixed one, and what the mixed
+// layer lacks of multiple scattering. The sample formula of appendix B.3.5 gives the base what the mixed
+// layer lets through, and a white surface halfway between loses a quarter of the light.
 FN SurfaceMaterial mix_material(vec3 base_color, float metallic, vec3 dielectric_f0, float dielectric_f90,
                                 float alpha) {
     SurfaceMaterial dielectric;
-    dielectric.diffuse_albedo = base_color * (1.0f - metallic);
+    dielectric.diffuse_albedo = base_color;
     dielectric.f0 = dielectric_f0;
     dielectric.f90 = dielectric_f90;
     dielectric.alpha = alpha;
+    SurfaceMaterial metal = dielectric;
+    metal.f0 = base_color;
+    metal.f90 = 1.0f;
     SurfaceMaterial m = dielectric;
     m.f0 = mix(dielectric_f0, base_color, metallic);
     m.f90 = mix(dielectric_f90, 1.0f, metallic);
     LayerAlbedo mean = evaluate_mean_layer_albedo(alpha);
-    vec3 through_dielectric = transmit_to_base(dielectric, mean_multiple_fresnel(dielectric, mean.loss), mean);
-    vec3 through_mix = transmit_to_base(m, mean_multiple_fresnel(m, mean.loss), mean);
-    m.diffuse_albedo =
-        m.diffuse_albedo * through_dielectric / max(through_mix, vec3(LEAST_TRANSMISSION));
+    vec3 mixed = mean_transmission(m, mean);
+    vec3 through = mean_transmission(dielectric, mean);
+    // Exactly 0 for dielectrics and metals.
+    vec3 missing = mixed - mix(through, mean_transmission(metal, mean), metallic);
+    vec3 base = base_color * through * (1.0f - metallic) + missing;
+    m.diffuse_albedo = clamp(base / max(mixed, vec3(LEAST_TRANSMISSION)), vec3(0.0f), vec3(1.0f));
     return m;
 }
 

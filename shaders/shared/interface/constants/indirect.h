@@ -6,7 +6,9 @@
 SHARED_BEGIN
 
 PASS_CONSTANTS(IndirectConstants) {
-    vec4 target_weights;   // of the channels in the target (p-hat); w = 0
+    // Of the channels in the target (p-hat): luminance, or one channel. w: 1 for the target of light that
+    // arrives (indirect light alone), 0 for that of what is reflected.
+    vec4 target_weights;
     uint bounce;           // 0: the first surface that the path meets
     uint candidate_count;  // light candidates of next-event estimation
 };
