@@ -35,7 +35,9 @@ struct FrameContext {
     std::uint32_t seed = 0;
     // How the last frame's rays were answered; none: no history is valid.
     std::optional<PreviousRays> previous = std::nullopt;
-    bool has_moved = false;  // camera, lights or geometry, since the last frame
+    bool has_moved = false;      // camera, lights or geometry, since the last frame
+    bool scene_changed = false;  // lights, geometry or materials, since the last frame
+    bool paths_may_be_stale = false;  // the scene changed since kept path samples were last asked for their lamps
 
     PassRecorder pass(const std::string& name) const { return recorder.pass(name); }
 

@@ -67,6 +67,8 @@ class GpuScene {
     bool is_changing() const {
         return moved_instances_ || !moved_meshes_.empty() || edited_materials_ || lights_.are_changing();
     }
+    // Whether materials are not what they were in the last frame.
+    bool have_materials_changed() const { return edited_materials_; }
     // Whether any light ever changed, or a material, which may say how much of a light is there.
     bool have_lights_changed() const { return has_edited_materials_ || lights_.have_changed(); }
 

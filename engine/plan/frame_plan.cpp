@@ -27,9 +27,15 @@ ReusePlan plan_reuse(const ReuseSettings& settings, bool runs, DebugView view) {
     return plan;
 }
 
-std::vector<glm::vec3> plan_targets(const DirectSettings& settings) {
-    if (!settings.per_channel) return {glm::vec3(LUMINANCE_WEIGHTS)};
-    return {glm::vec3(1.0f, 0.0f, 0.0f), glm::vec3(0.0f, 1.0f, 0.0f), glm::vec3(0.0f, 0.0f, 1.0f)};
+// The fourth number: 1 for the target of light that arrives, 0 for that of what a surface reflects.
+std::vector<glm::vec4> plan_targets(bool per_channel, float of_arriving = 0.0f) {
+    if (!per_channel) return {glm::vec4(glm::vec3(LUMINANCE_WEIGHTS), of_arriving)};
+    return {
+        {1.0f, 0.0f, 0.0f, of_arriving}, {0.0f, 1.0f, 0.0f, of_arriving}, {0.0f, 0.0f, 1.0f, of_arriving}};
+}
+
+bool shows_paths(DebugView view) {
+    return view >= DebugView::PATH_DIRECTION;
 }
 
 std::vector<PlannedPass> list_passes(const DirectPlan& plan) {
@@ -74,8 +80,7 @@ std::vector<PlannedPass> list_passes(const IndirectPlan& plan) {
         {"indirect/spatial", samples && reuse.spatial_steps > 0, "neighbours' path samples are reused"},
         {"indirect/visibility", samples && reuse.tests_chosen_samples,
          "the chosen path samples are traced after all reuse"},
-        {"indirect/shade", samples && !reuse.shades_all_samples,
-         "the chosen path samples light their pixels"},
+        {"indirect/shade", samples && !plan.is_lit_by_reuse(), "the chosen path samples light their pixels"},
         {"indirect/upsample", is_coarse, "and their light reaches the pixels around them"},
     };
 }
@@ -98,7 +103,7 @@ DirectPlan plan_direct(const DirectSettings& settings) {
     plan.light_tree = plan.candidates.selection == LightSelection::TREE;
     plan.candidate_count = settings.resamples() ? settings.candidates : 1;
     plan.sample_count = settings.sample_count();
-    plan.targets = plan_targets(settings);
+    plan.targets = plan_targets(settings.per_channel);
     plan.reuse = plan_reuse(settings.reuse, settings.uses_restir(), settings.debug_view);
     plan.view = settings.debug_view;
     return plan;
@@ -114,12 +119,13 @@ IndirectPlan plan_indirect(const IndirectSettings& settings) {
     plan.sampling = settings.sampling;
     plan.noise = settings.noise;
     plan.cache = settings.cache;
-    plan.target_weights = glm::vec3(LUMINANCE_WEIGHTS);
     plan.reuse = plan_reuse(settings.reuse, settings.uses_restir(), DebugView::NONE);
     plan.reuse.step_px = plan.step_px;
     plan.reuse.tests_fresh_samples = false;
     plan.reuse.drops_occluded = false;
     plan.keeps_samples = settings.uses_restir() && plan.reuse.runs();
+    plan.targets = plan_targets(plan.keeps_samples && settings.target == IndirectTarget::CHANNEL,
+                                settings.target == IndirectTarget::LUMINANCE ? 1.0f : 0.0f);
     return plan;
 }
 
@@ -145,7 +151,14 @@ FramePlan make_plan(const FeatureSurvey& survey, const RenderSettings& settings)
     plan.denoise = plan_denoise(settings, plan.features);
     plan.composite.indirect = plan.indirect.runs && !plan.denoise.runs;
     const DebugView view = plan.direct.view;
-    plan.composite.light_alone = view == DebugView::VISIBILITY || view == DebugView::SAMPLES;
+    if (plan.indirect.keeps_samples && shows_paths(view)) {
+        plan.indirect.view = view;
+        plan.indirect.targets.resize(1);
+        plan.indirect.reuse.shades_all_samples = false;
+        plan.composite.indirect_alone = true;
+    }
+    plan.composite.light_alone =
+        view == DebugView::VISIBILITY || view == DebugView::SAMPLES || plan.composite.indirect_alone;
     plan.passes = list_passes(plan.direct);
     for (PlannedPass& pass : list_passes(plan.indirect)) plan.passes.push_back(std::move(pass));
     for (PlannedPass& pass : list_passes(plan.denoise)) plan.passes.push_back(std::move(pass));

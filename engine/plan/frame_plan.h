@@ -44,7 +44,7 @@ struct DirectPlan {
     bool brdf_rays = false;
     int candidate_count = 1;
     int sample_count = 1;            // independent samples a pixel
-    std::vector<glm::vec3> targets;  // weights of the channels in the target: luminance, or each channel
+    std::vector<glm::vec4> targets;  // SampleSlot::target_weights: luminance, or each channel
     ReusePlan reuse;
     DebugView view = DebugView::NONE;
 
@@ -63,8 +63,12 @@ struct IndirectPlan {
     IndirectSampling sampling = IndirectSampling::BRDF;
     NoiseKind noise = NoiseKind::WHITE;
     IndirectCache cache = IndirectCache::OFF;
-    glm::vec3 target_weights{0.0f};
+    std::vector<glm::vec4> targets;  // as above; a sample for each
     ReusePlan reuse;
+    DebugView view = DebugView::NONE;  // of the chosen path samples
+
+    // As for direct light.
+    bool is_lit_by_reuse() const { return reuse.shades_all_samples && targets.size() == 1; }
 };
 
 struct DenoisePlan {

@@ -33,6 +33,8 @@ const char* define_of(DebugView view) {
             return "TARN_SHOW_UNSHADOWED";
         case DebugView::SAMPLES:
             return "TARN_SHOW_SAMPLES";
+        default:  // of indirect light
+            break;
     }
     return nullptr;
 }
@@ -191,11 +193,22 @@ std::vector<PathSamplesVariant> PathSamplesVariant::all() {
 }
 
 Defines IndirectShadeVariant::defines() const {
-    return reservoir_visibility ? Defines{"TARN_RESERVOIR_VISIBILITY"} : Defines{};
+    Defines result;
+    if (source == ShadeSource::RESERVOIR) result.emplace_back("TARN_RESERVOIR_VISIBILITY");
+    if (source == ShadeSource::SUMMED) result.emplace_back("TARN_SHADED");
+    if (shows_paths) result.emplace_back("TARN_SHOW_PATHS");
+    if (one_channel) result.emplace_back("TARN_ONE_CHANNEL");
+    if (adds) result.emplace_back("TARN_ADD");
+    return result;
 }
 
 std::vector<IndirectShadeVariant> IndirectShadeVariant::all() {
-    return {{false}, {true}};
+    std::vector<IndirectShadeVariant> result = {{ShadeSource::RESERVOIR, true}};
+    for (const ShadeSource source : {ShadeSource::TRACED, ShadeSource::RESERVOIR, ShadeSource::SUMMED}) {
+        result.push_back({source});
+        for (const bool adds : {false, true}) result.push_back({source, false, true, adds});
+    }
+    return result;
 }
 
 Defines ShadeVariant::defines() const {
@@ -258,11 +271,12 @@ Defines CompositeVariant::defines() const {
     Defines result;
     if (indirect) result.emplace_back("TARN_INDIRECT");
     if (light_alone) result.emplace_back("TARN_LIGHT_ALONE");
+    if (indirect_alone) result.emplace_back("TARN_INDIRECT_ALONE");
     return result;
 }
 
 std::vector<CompositeVariant> CompositeVariant::all() {
-    return {{false, false}, {false, true}, {true, false}, {true, true}};
+    return {{false, false}, {false, true}, {true, false}, {true, true}, {true, true, true}};
 }
 
 Defines DisplayVariant::defines() const {

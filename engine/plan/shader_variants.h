@@ -156,19 +156,22 @@ struct PathSamplesVariant {
     static std::vector<PathSamplesVariant> all();
 };
 
-struct IndirectShadeVariant {
-    static constexpr const char* PATH = "indirect/shade";
-    static constexpr bool IS_OF_SCENE = true;
-    bool reservoir_visibility = false;
-    Defines defines() const;
-    static std::vector<IndirectShadeVariant> all();
-};
-
 // Where shading finds the light of a pixel.
 enum class ShadeSource {
     TRACED,     // its chosen sample, whose visibility was traced after all reuse
     RESERVOIR,  // its chosen sample, with the visibility that the reservoir knows
     SUMMED,     // the sum that the last step of reuse made
+};
+
+struct IndirectShadeVariant {
+    static constexpr const char* PATH = "indirect/shade";
+    static constexpr bool IS_OF_SCENE = true;
+    ShadeSource source = ShadeSource::TRACED;
+    bool shows_paths = false;  // what samples are like instead of their light
+    bool one_channel = false;  // as in ShadeVariant
+    bool adds = false;
+    Defines defines() const;
+    static std::vector<IndirectShadeVariant> all();
 };
 
 struct ShadeVariant {
@@ -215,7 +218,8 @@ struct CompositeVariant {
     static constexpr const char* PATH = "composite";
     static constexpr bool IS_OF_SCENE = false;
     bool indirect = false;
-    bool light_alone = false;  // without emission
+    bool light_alone = false;     // without emission
+    bool indirect_alone = false;  // without direct light
     Defines defines() const;
     static std::vector<CompositeVariant> all();
 };

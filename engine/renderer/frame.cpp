@@ -146,39 +146,47 @@ ReflectedLight Renderer::light_coarsely(const FrameContext& frame, const GBuffer
 }
 
 ReflectedLight Renderer::light_by_paths(const FrameContext& frame, const GBuffer& gbuffer) {
-    const SampleSlot slot{0, 0, frame.plan.indirect.target_weights, {frame.frame, frame.seed, RAY_SHADOW}};
+    const IndirectPlan& plan = frame.plan.indirect;
+    const SampleSlot slot{0, 0, plan.targets[0], {frame.frame, frame.seed, RAY_SHADOW}};
     const PathCache cache = find_path_cache(frame, gbuffer, find_previous(frame, history_.indirect_light),
                                             find_previous(frame, history_.cache_cells));
     const Paths paths = trace_paths(frame, gbuffer, slot, find_blue_noise(), cache);
-    if (frame.plan.indirect.cache == IndirectCache::WORLD) {
+    if (plan.cache == IndirectCache::WORLD) {
         history_.cache_cells.keep(
             frame.frame, update_cells(frame, slot, paths.states, cache.cells, estimate_irradiance(world_)));
     }
     const ReflectedLight light = finish_paths(frame, gbuffer, slot, paths);
-    if (frame.plan.indirect.cache == IndirectCache::SCREEN) {
-        history_.indirect_light.keep(frame.frame, light.diffuse);
-    }
+    if (plan.cache == IndirectCache::SCREEN) history_.indirect_light.keep(frame.frame, light.diffuse);
     return light;
 }
 
-ReflectedLight Renderer::finish_paths(const FrameContext& frame, const GBuffer& gbuffer,
-                                      const SampleSlot& slot, const Paths& paths) {
-    if (!frame.plan.indirect.keeps_samples) return finish_light(frame, gbuffer, slot, paths);
-    return reuse_paths(frame, gbuffer, slot, finish_samples(frame, gbuffer, slot, paths));
+ReflectedLight Renderer::finish_paths(const FrameContext& frame, const GBuffer& gbuffer, SampleSlot slot,
+                                      const Paths& paths) {
+    const IndirectPlan& plan = frame.plan.indirect;
+    if (!plan.keeps_samples) return finish_light(frame, gbuffer, slot, paths);
+    history_.indirect.resize(plan.targets.size());
+    ReflectedLight light;
+    for (slot.lane = 0; slot.lane < plan.targets.size(); ++slot.lane) {
+        slot.target_weights = plan.targets[slot.lane];
+        light = reuse_paths(frame, gbuffer, slot, finish_samples(frame, gbuffer, slot, paths), light);
+    }
+    if (tests_lamps(frame)) history_.paths_may_be_stale = false;
+    return light;
 }
 
 ReflectedLight Renderer::reuse_paths(const FrameContext& frame, const GBuffer& gbuffer,
-                                     const SampleSlot& slot, const Samples& fresh) {
+                                     const SampleSlot& slot, const Samples& fresh,
+                                     const ReflectedLight& earlier) {
     const ReusedSamples reused =
-        reuse_samples(frame, indirect_reuse(frame), gbuffer, slot, fresh, history_.indirect);
-    if (reused.light) return reused.light;
+        reuse_samples(frame, indirect_reuse(frame), gbuffer, slot, fresh, history_.indirect[slot.lane]);
+    if (frame.plan.indirect.is_lit_by_reuse()) return reused.light;
     Answers seen;
     // Without anything merged the samples are fresh: their pixels see them.
-    if (frame.plan.indirect.reuse.tests_chosen_samples && reused.samples.rays) {
+    if (frame.plan.indirect.reuse.tests_chosen_samples && reused.samples.rays && !reused.light) {
         seen = trace_visibility(frame, "indirect/visibility", reused.samples.rays, frame.pixel_count(),
                                 slot.shadow_key);
     }
-    return shade_indirect(frame, gbuffer, slot, reused.samples, seen);
+    return shade_indirect(frame, gbuffer, slot, {&reused.samples, seen, reused.light}, earlier);
 }
 
 }  // namespace tarn

@@ -20,8 +20,9 @@ struct FrameHistory {
     glm::vec2 jitter_px{0.0f};
     History<Surfaces> surfaces;
     History<Exposure> exposure;
-    std::vector<History<KeptSamples>> direct;  // one a target
-    History<KeptSamples> indirect;
+    std::vector<History<KeptSamples>> direct;    // one a target
+    std::vector<History<KeptSamples>> indirect;  // the same
+    bool paths_may_be_stale = false;  // something has changed since their lamps were asked for (tests_lamps)
     History<Picture> indirect_light;  // of the base, without its albedo: what paths find in view
     History<CacheCells> cache_cells;
     History<Surfaces> coarse_surfaces;  // of indirect light on a coarse picture

@@ -105,7 +105,7 @@ FrameBlock Renderer::make_frame_block(const FrameInput& input) const {
     block.frame_previous_forward = glm::vec4(history_.camera.forward, 0.0f);
     block.frame_history =
         glm::uvec4(gpu_scene_.previous_first_instance(), gpu_scene_.lights().previous_first_row(),
-                   gpu_scene_.lights().remap_first_row(), 0u);
+                   gpu_scene_.lights().remap_first_row(), gpu_scene_.have_materials_changed() ? 1u : 0u);
     block.frame_jitter = glm::vec4(input.jitter_px, history_.jitter_px);
     block.frame_tables =
         glm::uvec4(gpu_light_tree_.node_count(), gpu_scene_.lights().instance_lookup_first_row(),
@@ -140,6 +140,9 @@ FrameOutput Renderer::render(const FrameInput& input) {
     const bool follows = history_.rays && input.frame == history_.rays->key.frame + 1;
     if (follows) frame.previous = history_.rays;
     frame.has_moved = has_moved(input.camera);
+    frame.scene_changed = gpu_scene_.is_changing();
+    history_.paths_may_be_stale |= frame.scene_changed;
+    frame.paths_may_be_stale = history_.paths_may_be_stale;
 
     const Values values = record_frame(frame, input);
     rejected_rays_ += rays.shadow.rejected;

@@ -103,10 +103,10 @@ class Renderer {
     ReflectedLight light_indirectly(const FrameContext& frame, const GBuffer& gbuffer);
     ReflectedLight light_coarsely(const FrameContext& frame, const GBuffer& gbuffer);
     ReflectedLight light_by_paths(const FrameContext& frame, const GBuffer& gbuffer);
-    ReflectedLight finish_paths(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,
+    ReflectedLight finish_paths(const FrameContext& frame, const GBuffer& gbuffer, SampleSlot slot,
                                 const Paths& paths);
     ReflectedLight reuse_paths(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,
-                               const Samples& fresh);
+                               const Samples& fresh, const ReflectedLight& earlier);
     std::optional<Previous<KeptLight>> find_previous_light(const FrameContext& frame) const;
     std::optional<Previous<KeptSamples>> find_previous_samples(const FrameContext& frame) const;
     Picture compare_light(const FrameContext& frame, const GBuffer& gbuffer,

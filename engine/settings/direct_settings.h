@@ -18,7 +18,20 @@ enum class LightSelection { UNIFORM, POWER, TILES, TREE };
 
 // What the picture shows instead of light: the visibility of the chosen samples, their light without it, or
 // which samples they are, each in a colour of its own.
-enum class DebugView { NONE, VISIBILITY, UNSHADOWED, SAMPLES };
+// Those from PATH_DIRECTION on show path samples; their order is that of PATH_VIEW_* in
+// shaders/shared/interface/constants/shade.h.
+enum class DebugView {
+    NONE,
+    VISIBILITY,
+    UNSHADOWED,
+    SAMPLES,
+    PATH_DIRECTION,
+    PATH_DISTANCE,
+    PATH_NORMAL,
+    PATH_RADIANCE,
+    PATH_WEIGHT,
+    PATH_AGE,
+};
 
 struct DirectSettings {
     DirectMode mode = DirectMode::RIS;

@@ -27,6 +27,10 @@ enum class IndirectCache {
     WORLD,   // a hash grid in world space
 };
 
+// What samples are resampled in proportion to: the luminance of the radiance that arrives at a receiver, that
+// of what it reflects, or each channel of what it reflects, with a sample for each.
+enum class IndirectTarget { LUMINANCE, BRDF, CHANNEL };
+
 struct IndirectSettings {
     IndirectMode mode = IndirectMode::OFF;
     IndirectSampling sampling = IndirectSampling::BRDF;
@@ -35,6 +39,8 @@ struct IndirectSettings {
     int bounces = 1;     // surfaces that light meets before the one that is seen
     int candidates = 4;  // light candidates at each of them
     IndirectCache cache = IndirectCache::OFF;
+    int validation = 4;  // frames after which kept samples are asked again for their lamps; 0: never
+    IndirectTarget target = IndirectTarget::BRDF;
     ReuseSettings reuse;
 
     bool runs() const { return mode != IndirectMode::OFF; }

@@ -181,10 +181,11 @@ void add_indirect_rows(std::vector<Setting>& table) {
             &S::noise, {"white", "blue"})
         .number("indirect-candidates", "", "Light candidates at each surface that a path meets",
                 &S::candidates, 1, 64)
-        .choose("indirect-cache",
-                "Light of all further bounces, where paths end: none, what the last frame saw there, or a grid "
-                "in world space; biased",
-                &S::cache, {"off", "screen", "world"});
+        .choose(
+            "indirect-cache",
+            "Light of all further bounces, where paths end: none, what the last frame saw there, or a grid "
+            "in world space; biased",
+            &S::cache, {"off", "screen", "world"});
 }
 
 void add_denoise_rows(std::vector<Setting>& table) {
@@ -203,11 +204,44 @@ void add_denoise_rows(std::vector<Setting>& table) {
                 63);
 }
 
+void add_indirect_target_row(std::vector<Setting>& table) {
+    SettingRows<IndirectPart>(table, "")
+        .where([](const RenderSettings& s) {
+            return indirect_reuses(s) && s.indirect.reuse.reuse != Reuse::NONE;
+        })
+        .choose(
+            "indirect-target",
+            "restir: what path samples are kept in proportion to: the luminance of their light, that of what "
+            "the surface reflects of it, or each channel of that with a sample of its own (no colour noise, "
+            "three times the cost of reuse)",
+            &IndirectSettings::target, {"luminance", "brdf", "channel"});
+}
+
+// What kept path samples know of their lamps grows old; where the weights trace, it is asked anew at once.
+void add_validation_row(std::vector<Setting>& table) {
+    SettingRows<IndirectPart>(table, "")
+        .where([](const RenderSettings& s) {
+            const ReuseSettings& reuse = s.indirect.reuse;
+            return indirect_reuses(s) && reuse.reuses_time() && !reuse.traces_in_mis();
+        })
+        .number(
+            "indirect-validation", "frames",
+            "restir: while things change, test by rays every so many frames whether kept samples still see "
+            "their lamps; 0: never. With indirect-mis-visibility it is tested in every frame",
+            &IndirectSettings::validation, 0, 64);
+}
+
 void add_view_rows(std::vector<Setting>& table) {
     SettingRows<DirectPart>(table, "").choose(
         "debug-view",
-        "Show the visibility of the chosen samples, their light without it, or which they are, in colours",
-        &DirectSettings::debug_view, {"none", "visibility", "unshadowed", "samples"});
+        "Show the visibility of the chosen samples, their light without it, or which they are, in colours; "
+        "or of "
+        "the path samples of indirect=restir: direction, distance [m] and normal of the place, its radiance, "
+        "the "
+        "contribution weight, the age [frames]",
+        &DirectSettings::debug_view,
+        {"none", "visibility", "unshadowed", "samples", "path-direction", "path-distance", "path-normal",
+         "path-radiance", "path-weight", "path-age"});
 }
 
 }  // namespace
@@ -220,6 +254,8 @@ const std::vector<Setting>& setting_table() {
         add_visibility_reuse_row(rows);
         add_indirect_rows(rows);
         add_reuse_rows<IndirectReusePart>(rows, "indirect-", indirect_reuses);
+        add_indirect_target_row(rows);
+        add_validation_row(rows);
         add_denoise_rows(rows);
         add_view_rows(rows);
         return rows;

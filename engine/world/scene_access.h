@@ -10,6 +10,7 @@
 #include "shared/math/random.h"
 #include "shared/math/ray_offset.h"
 #include "shared/math/shading.h"
+#include "shared/math/spherical_triangle.h"
 #include "shared/math/texture_filter.h"
 #include "shared/math/warp.h"
 #include "world/light_tree.h"

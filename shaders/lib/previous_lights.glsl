@@ -1,9 +1,9 @@
 // Lights in the last frame: what they were like. After lib/scene_buffers.glsl. Without TARN_LIGHT_HISTORY no light ever
 // changed.
 
-#ifdef TARN_LIGHT_HISTORY
 bool is_in_light_table(LightSample drawn) { return drawn.light < LIGHT_ENVIRONMENT; }
 
+#ifdef TARN_LIGHT_HISTORY
 uint remap_light(uint light, bool to_previous) {
 #ifdef TARN_PLANT_NO_REMAP
     if (!to_previous) return light;
@@ -37,6 +37,8 @@ float load_previous_light_error(LightSample drawn) {
 }
 
 #else
+uint remap_light(uint light, bool to_previous) { return light; }
+Light load_previous_light(uint light) { return load_light(light); }
 IncidentLight load_previous_incident_light(LightSample drawn, vec3 point) {
     return load_incident_light(drawn, point);
 }

@@ -1,6 +1,7 @@
 // Joins what the stages of light found: emission + albedo x diffuse light + specular light.
 //
 // TARN_INDIRECT: with indirect light.
+// TARN_INDIRECT_ALONE: with nothing but it, where a debug view shows its samples.
 // TARN_LIGHT_ALONE: without emission, where a debug view shows something else than light.
 #include "lib/frame.glsl"
 #include "lib/gbuffer.glsl"
@@ -21,6 +22,10 @@ void main() {
     if (is_outside(pixel)) return;
     vec3 diffuse = texelFetch(direct_diffuse, pixel, 0).xyz;
     vec3 specular = texelFetch(direct_specular, pixel, 0).xyz;
+#ifdef TARN_INDIRECT_ALONE
+    diffuse = vec3(0.0f);
+    specular = vec3(0.0f);
+#endif
 #ifdef TARN_INDIRECT
     diffuse += texelFetch(indirect_diffuse, pixel, 0).xyz;
     specular += texelFetch(indirect_specular, pixel, 0).xyz;

@@ -184,8 +184,22 @@ TEST(BoilingFilter, DropsThoseThatOutweighTheirBlockAndNoOthers) {
 // ---- Every setting
 // ---------------------------------------------------------------------------------------------------
 
-// The last of some frames: the camera stands still, then it walks.
-Image render_walk(const test::TestScene& scene, const RenderSettings& settings) {
+// Puts the last thing of the scene where it was, or higher.
+void lift_last(test::TestScene& scene, double by_m) {
+    Node& node = at(scene.scene.nodes, scene.scene.instances.back().node);
+    if (node.matrix) {
+        (*node.matrix)[3].y += by_m;
+    } else {
+        node.local.translation.y += by_m;
+    }
+    ++scene.scene.revision;
+    update_world(scene.world, scene.scene, 0.0);
+    scene.tracer->update(scene.world);
+}
+
+// The last of some frames: camera and scene stand still, then the camera walks and a thing has moved.
+Image render_walk(test::TestScene& scene, const RenderSettings& settings) {
+    constexpr double LIFT_M = 0.1;
     Renderer renderer(scene.world, *scene.tracer, WIDTH_PX, HEIGHT_PX);
     FrameInput input;
     input.camera = test::first_camera(scene, double(WIDTH_PX) / HEIGHT_PX);
@@ -193,8 +207,13 @@ Image render_walk(const test::TestScene& scene, const RenderSettings& settings) 
     Image last;
     for (input.frame = 0; input.frame < 6; ++input.frame) {
         if (input.frame >= 3) input.camera.position += 0.03f * input.camera.right;
+        if (input.frame == 3) {
+            lift_last(scene, LIFT_M);
+            renderer.update();
+        }
         last = renderer.read_radiance(renderer.render(input).radiance);
     }
+    lift_last(scene, -LIFT_M);
     return last;
 }
 

@@ -27,6 +27,7 @@ class DirectLightCase {
     static std::filesystem::path file_of(const std::string& name) {
         if (name == "VeachMIS") return shared_file("VeachMIS/veach_mis.gltf");
         if (name == "CornellBox-bevy") return shared_file("CornellBox-bevy/CornellBox.glb");
+        if (name == "SponzaDabrovic") return shared_file("SponzaDabrovic/SponzaDabrovic.gltf");
         if (name == "CyberpunkManyLights") return shared_file("CyberpunkManyLights/cyberpunk.gltf");
         return content_file(name);
     }
@@ -37,8 +38,8 @@ class DirectLightCase {
     // Needs a current GL context. `draws_per_pixel`: light candidates that the test will draw in all.
     // `bounces`: of the reference; 1 is direct light.
     DirectLightCase(const std::string& name, double draws_per_pixel, std::uint64_t reference_spp = 4096,
-                    int bounces = 1)
-        : name_(name), scene_(load_test_scene(file_of(name))) {
+                    int bounces = 1, const WorldOptions& options = {})
+        : name_(name), scene_(load_test_scene(file_of(name), glm::dvec3(0.0), options)) {
         const double aspect = double(WIDTH_PX) / HEIGHT_PX;
         // Of the box the camera sees nothing but the inside: no tile is dark.
         camera_ = name == "cornell" ? look_at(scene_->world, {0.0, 0.2, 0.5}, {0.0, 0.19, -0.3}, 28.0, aspect)

@@ -29,7 +29,8 @@ struct TestScene {
 
 // Loads a scene, moved by `offset_ws`, in its rest pose.
 inline std::unique_ptr<TestScene> load_test_scene(const std::filesystem::path& file,
-                                                  const glm::dvec3& offset_ws = glm::dvec3(0.0)) {
+                                                  const glm::dvec3& offset_ws = glm::dvec3(0.0),
+                                                  const WorldOptions& options = {}) {
     auto result = std::make_unique<TestScene>();
     result->scene = load_gltf(file);
     for (Node& node : result->scene.nodes) {
@@ -40,7 +41,7 @@ inline std::unique_ptr<TestScene> load_test_scene(const std::filesystem::path& f
             node.local.translation += offset_ws;
         }
     }
-    result->world = build_world(result->scene);
+    result->world = build_world(result->scene, options);
     result->tracer = create_embree_tracer(result->world);
     return result;
 }

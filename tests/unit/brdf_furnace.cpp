@@ -72,6 +72,40 @@ TEST(BrdfFurnace, AWhiteMetalReflectsAllLightAtEachRoughness) {
     EXPECT_TRUE(is_white(extremes)) << extremes.x << " to " << extremes.y;
 }
 
+// Between metal and dielectric white surfaces are as white.
+TEST(BrdfFurnace, AWhiteMixOfMetalAndDielectricReflectsAllLight) {
+    for (const double metallic : {0.1, 0.5, 0.9}) {
+        for (const double alpha : {0.01, 0.1, 0.5, 1.0}) {
+            const SurfaceMaterial mixed =
+                mix_material(vec3(1.0f), float(metallic), vec3(0.04f), 1.0f, float(alpha));
+            SurfaceMaterial sample_formula = mixed;
+            sample_formula.diffuse_albedo = vec3(float(1.0 - metallic));
+            for (const double angle : {0.0, 45.0, 80.0}) {
+                const double share = directional_albedo(shipped_brdf, mixed, view_at(angle));
+                EXPECT_GE(share, LEAST) << metallic << ", alpha " << alpha << ", " << angle << " degrees";
+                EXPECT_LE(share, MOST) << metallic << ", alpha " << alpha << ", " << angle << " degrees";
+                // The base under the mixed layer: what the sample formula of glTF's appendix B does.
+                if (metallic == 0.5 && angle == 0.0 && alpha == 0.1)
+                    EXPECT_LT(directional_albedo(shipped_brdf, sample_formula, view_at(angle)), 0.8);
+            }
+        }
+    }
+}
+
+// A grey mix is the mix of the two BRDFs, to within what its layer's coupling to the base changes.
+TEST(BrdfFurnace, AGreyMixReflectsWhatItsTwoPartsReflect) {
+    for (const float base : {0.2f, 0.5f, 0.8f}) {
+        for (const double alpha : {0.1, 0.5}) {
+            const auto reflect = [&](float metallic) {
+                return directional_albedo(shipped_brdf,
+                                          mix_material(vec3(base), metallic, vec3(0.04f), 1.0f, float(alpha)),
+                                          view_at(45.0));
+            };
+            EXPECT_NEAR(reflect(0.5f), 0.5 * (reflect(0.0f) + reflect(1.0f)), 0.01) << base << ", " << alpha;
+        }
+    }
+}
+
 Brdf plant(EnergyMistake mistake) {
     return [mistake](const SurfaceMaterial& m, const vec3& v, const vec3& l) {
         const dvec3 view(clamp_view(v)), light(l);

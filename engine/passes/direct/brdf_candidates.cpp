@@ -9,7 +9,7 @@ namespace tarn {
 Rows trace_brdf_candidates(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot) {
     const Rows rays = frame.take_pixel_rows("direct/brdf_rays", RAY_ROWS, BufferUse::SHARED);
     CandidatesConstants constants{};
-    constants.target_weights = glm::vec4(slot.target_weights, 0.0f);
+    constants.target_weights = slot.target_weights;
     constants.sample_index = slot.index;
     {
         PassRecorder pass = frame.pass("direct/brdf_rays");

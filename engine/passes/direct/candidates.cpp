@@ -13,7 +13,7 @@ Samples choose_candidates(const FrameContext& frame, const GBuffer& gbuffer, con
     const Samples fresh{frame.take_pixel_rows("direct/candidates", RESERVOIR_ROWS, BufferUse::DEVICE),
                         frame.take_pixel_rows("shadow_rays", RAY_ROWS, BufferUse::SHARED)};
     CandidatesConstants constants;
-    constants.target_weights = glm::vec4(slot.target_weights, 0.0f);
+    constants.target_weights = slot.target_weights;
     constants.candidate_count = std::uint32_t(plan.candidate_count);
     constants.sample_index = slot.index;
     PassRecorder pass = frame.pass("direct/candidates");

@@ -14,7 +14,7 @@ namespace {
 
 IndirectConstants constants_for(const FrameContext& frame, const SampleSlot& slot, int bounce) {
     IndirectConstants constants{};
-    constants.target_weights = glm::vec4(slot.target_weights, 0.0f);
+    constants.target_weights = slot.target_weights;
     constants.bounce = std::uint32_t(bounce);
     constants.candidate_count = std::uint32_t(frame.plan.indirect.candidate_count);
     constants.cache_cell_share = find_cell_share(frame);

@@ -4,6 +4,15 @@
 
 namespace tarn {
 
+bool tests_lamps(const FrameContext& frame) {
+    const ReusePlan& plan = frame.plan.indirect.reuse;
+    if (!plan.over_time || !frame.previous) return false;
+    if (!frame.tracer.remembers(frame.previous->geometry_revision)) return false;
+    if (plan.traces_in_mis) return frame.scene_changed;
+    const auto interval = std::uint32_t(frame.settings.indirect.validation);
+    return interval > 0 && frame.frame % interval == 0 && frame.paths_may_be_stale;
+}
+
 ReuseStage indirect_reuse(const FrameContext& frame) {
     const ReusePlan& plan = frame.plan.indirect.reuse;
     return {"indirect",
@@ -21,7 +30,8 @@ ReuseStage indirect_reuse(const FrameContext& frame) {
              [&](ReuseRun run) -> const Program& {
                  return frame.compute(IndirectSpatialVariant{{plan.variant(run), plan.neighbours}});
              },
-             PATH_SAMPLE_ROWS}};
+             PATH_SAMPLE_ROWS},
+            tests_lamps(frame)};
 }
 
 }  // namespace tarn

@@ -4,18 +4,31 @@
 #include "shared/interface/constants/shade.h"
 
 namespace tarn {
+namespace {
+
+ShadeConstants constants_for(const FrameContext& frame, const SampleSlot& slot) {
+    const DebugView view = frame.plan.indirect.view;
+    const int path_view = view == DebugView::NONE ? 0 : int(view) - int(DebugView::PATH_DIRECTION);
+    return {slot.target_weights, 1.0f, std::uint32_t(path_view)};
+}
+
+IndirectShadeVariant variant_for(const FrameContext& frame, const ShadeInput& input, bool adds) {
+    if (frame.plan.indirect.view != DebugView::NONE) return {ShadeSource::RESERVOIR, true};
+    return {source_of(input), false, frame.plan.indirect.targets.size() > 1, adds};
+}
+
+}  // namespace
 
 ReflectedLight shade_indirect(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,
-                              const Samples& samples, const Answers& answers) {
-    const ReflectedLight light = take_reflected_light(frame, "indirect/light");
+                              const ShadeInput& input, const ReflectedLight& earlier) {
+    // The sum of the only samples is the light.
+    if (input.summed && frame.plan.indirect.targets.size() == 1) return input.summed;
+    const ReflectedLight light = earlier ? earlier : take_reflected_light(frame, "indirect/light");
     PassRecorder pass = frame.pass("indirect/shade");
-    read_gbuffer(pass, gbuffer)
-        .constants(ShadeConstants{glm::vec4(slot.target_weights, 0.0f), 1.0f})
-        .read(UNIT_PASS_A, samples.reservoirs)
-        .write_image(0, *light.diffuse)
-        .write_image(1, *light.specular);
-    if (answers) pass.read(UNIT_PASS_B, answers);
-    pass.dispatch(frame.compute(IndirectShadeVariant{!answers}), frame.size_px);
+    read_gbuffer(pass, gbuffer).constants(constants_for(frame, slot));
+    read_shade_input(pass, input);
+    write_light(pass, light, bool(earlier));
+    pass.dispatch(frame.compute(variant_for(frame, input, bool(earlier))), frame.size_px);
     return light;
 }
 

@@ -2,14 +2,13 @@
 #pragma once
 
 #include "passes/gbuffer.h"
-#include "passes/reflected_light.h"
-#include "passes/reuse/samples.h"
-#include "passes/trace_rays.h"
+#include "passes/shade_input.h"
 
 namespace tarn {
 
-// `answers`: one a pixel, where the samples were traced after all reuse; null: what the reservoirs know.
+// The light of this slot's samples, added to `earlier` slots' of this frame, which is no more; none for the
+// first slot.
 ReflectedLight shade_indirect(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,
-                              const Samples& samples, const Answers& answers);
+                              const ShadeInput& input, const ReflectedLight& earlier);
 
 }  // namespace tarn

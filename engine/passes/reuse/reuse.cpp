@@ -38,7 +38,8 @@ ReusedSamples reuse_samples(const FrameContext& frame, const ReuseStage& stage, 
                             const SampleSlot& slot, const Samples& fresh, History<KeptSamples>& kept) {
     const ReusePlan& plan = stage.plan;
     const bool tests = plan.tests_chosen_samples && plan.spatial_steps == 0;
-    const Samples over_time = reuse_kept(frame, stage, {gbuffer, slot, fresh, tests}, kept);
+    const ReuseInput input{gbuffer, slot, fresh, tests, nullptr, stage.tests_carried_light};
+    const Samples over_time = reuse_kept(frame, stage, input, kept);
     const ReusedSamples reused = reuse_neighbours(frame, stage, gbuffer, slot, over_time);
     if (plan.runs()) {
         const Samples& next = plan.keeps_temporal ? over_time : reused.samples;

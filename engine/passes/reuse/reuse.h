@@ -14,6 +14,8 @@ struct ReuseStage {
     ReuseShaders temporal;
     ReuseShaders boiling_filter;
     ReuseShaders spatial;
+    // In this frame reuse over time asks again whether the light that samples carry reaches them.
+    bool tests_carried_light = false;
 };
 
 struct ReusedSamples {

@@ -40,7 +40,7 @@ ReuseRun merge_run(const ReuseInput& input) {
 
 ReuseConstants constants_for(const ReuseKernel& kernel, const ReuseInput& input, const Band& band) {
     ReuseConstants constants = kernel.constants;
-    constants.target_weights = glm::vec4(input.slot.target_weights, 0.0f);
+    constants.target_weights = input.slot.target_weights;
     constants.band_begin = band.begin;
     constants.band_end = band.end;
     constants.rays_per_pixel = kernel.rays_per_pixel;

@@ -17,6 +17,7 @@ struct ReuseInput {
     const Samples& samples;
     bool tests_samples = false;             // write the rays that test the merged samples
     const ReflectedLight* light = nullptr;  // write what all merged samples send to the viewer
+    bool tests_carried_light = false;       // over time: ask again for the light that samples carry
 };
 
 struct ReuseKernel {

@@ -22,15 +22,17 @@ struct Samples {
 // One of the samples that a pixel takes in a frame, independent of the others: they differ in random numbers,
 // or in the channel that their target looks at.
 struct SampleSlot {
-    std::uint32_t index = 0;   // of the frame's samples of each pixel
-    std::size_t lane = 0;      // of the targets
-    glm::vec3 target_weights;  // of the channels in the target (p-hat)
-    CoverageKey shadow_key;    // decides what its rays meet
+    std::uint32_t index = 0;  // of the frame's samples of each pixel
+    std::size_t lane = 0;     // of the targets
+    // Of the channels in the target (p-hat); w = 1: the target of light that arrives, not of what is
+    // reflected.
+    glm::vec4 target_weights;
+    CoverageKey shadow_key;  // decides what its rays meet
 };
 
 // By which rules samples were weighed: those of other rules have other densities and are no history.
 struct SampleMeaning {
-    glm::vec3 target_weights;
+    glm::vec4 target_weights;
     Mis mis;
     bool traces_in_mis;
     FinalVisibility final_visibility;
@@ -41,7 +43,7 @@ struct SampleMeaning {
     bool operator==(const SampleMeaning&) const = default;
 };
 
-SampleMeaning meaning_of(const ReusePlan& plan, const glm::vec3& target_weights);
+SampleMeaning meaning_of(const ReusePlan& plan, const glm::vec4& target_weights);
 
 // What the next frame finds.
 struct KeptSamples {
@@ -53,7 +55,7 @@ struct KeptSamples {
 // what their weights ask for.
 std::optional<Previous<KeptSamples>> find_previous(const FrameContext& frame, const ReusePlan& plan,
                                                    const History<KeptSamples>& history,
-                                                   const glm::vec3& target_weights);
+                                                   const glm::vec4& target_weights);
 
 // The shaders of a stage that reuses: of one kind of sample.
 struct ReuseShaders {

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "shared/interface/bindings.h"
+#include "shared/interface/records.h"
 
 namespace tarn {
 
@@ -16,8 +17,14 @@ Samples reuse_over_time(const FrameContext& frame, const ReuseShaders& shaders, 
         frame.has_moved ? std::min(settings.motion_cap, settings.confidence_cap) : settings.confidence_cap;
     ReuseKernel kernel;
     kernel.shaders = shaders;
-    // One ray each way (RAY_HERE, RAY_PREVIOUS_RECEIVER in the shader).
+    // One ray each way (RAY_HERE, RAY_PREVIOUS_RECEIVER in the shader), and as many for the light that samples
+    // carry.
     kernel.rays_per_pixel = plan.traces_in_mis ? 2 : 0;
+    kernel.constants.carried_rays = INVALID_INDEX;
+    if (input.tests_carried_light) {
+        kernel.constants.carried_rays = kernel.rays_per_pixel;
+        kernel.rays_per_pixel += 2;
+    }
     kernel.constants.confidence_cap = float(cap);
     kernel.constants.age_cap = float(settings.age_cap);
     kernel.constants.permute = settings.permute ? 1u : 0u;

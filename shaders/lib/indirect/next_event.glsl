@@ -8,8 +8,8 @@ struct NextEvent {
     float contribution_weight;  // W; 0: no light found
 };
 
-// A candidate by power, the sky by its share.
-LightCandidate draw_next_event(RandomKey key, uint dimension) {
+// A candidate for `point` by power, the sky by its share.
+LightCandidate draw_next_event(RandomKey key, uint dimension, vec3 point) {
     float share = environment_probability();
     uvec4 bits = random_bits4(key, dimension);
     bool sky = SCENE_HAS_ENVIRONMENT && random4(key, dimension + 1u).x < share;
@@ -20,7 +20,7 @@ LightCandidate draw_next_event(RandomKey key, uint dimension) {
         c.pdf *= share;
 #endif
     } else if (get_light_count() > 0u) {
-        c = draw_light_by_power(bits);
+        c = draw_light_near_by_power(bits, point);
         c.pdf *= 1.0f - share;
     }
     return c;
@@ -32,7 +32,7 @@ NextEvent find_next_event(Receiver r, RandomKey key, uint dimension) {
     chosen.drawn = no_light_sample();
     LiveReservoir live = empty_live_reservoir();
     for (uint i = 0u; i < candidate_count; ++i) {
-        LightCandidate c = draw_next_event(key, dimension + 3u * i);
+        LightCandidate c = draw_next_event(key, dimension + 3u * i, r.point.position);
         if (!(c.pdf > 0.0f)) continue;
         IncidentLight incident = load_incident_light(c.drawn, r.point.position);
         float target = luminance(join_parts(r.point.material, reflect_at(r, incident)));

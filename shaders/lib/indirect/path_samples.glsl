@@ -37,14 +37,6 @@ struct PlacedSample {
 
 PlacedSample find_place(PathSample path) { return PlacedSample(path, load_place_at(path, 0u)); }
 
-PathPlace load_previous_place(PlacedSample drawn) {
-#ifdef TARN_MOTION
-    return load_place_at(drawn.path, frame_history.x);
-#else
-    return drawn.place;
-#endif
-}
-
 // ---- In and out of memory
 
 #define SAMPLE PlacedSample
@@ -91,9 +83,16 @@ IncidentLight place_light(PathSample path, PathPlace place, vec3 point) {
     return light;
 }
 
-// p-hat without visibility.
+// p-hat of light at a receiver, without visibility. With `target_weights`.w that of the light itself, wherever the surface
+// may reflect it (Ouyang et al. 2021, section 4.2).
+float path_target(Receiver r, IncidentLight light) {
+    if (target_weights.w == 0.0f) return target_at(r, light);
+    bool is_before = dot(r.point.geometric_normal, light.direction) > 0.0f;
+    return is_before ? target_function(light.value, target_weights.xyz) : 0.0f;
+}
+
 float sample_target(Receiver r, SAMPLE drawn) {
-    return target_at(r, place_light(drawn.path, drawn.place, r.point.position));
+    return path_target(r, place_light(drawn.path, drawn.place, r.point.position));
 }
 
 // What the sample sends to the viewer if it is seen, not yet weighed by W.
@@ -141,96 +140,5 @@ float shift_jacobian(Receiver from, Receiver to, SAMPLE drawn) {
 }
 
 #ifdef TARN_PREVIOUS_FRAME
-#include "lib/previous_lights.glsl"
-
-// A sample of this frame as the last one would have known it, and back. Instances keep their index; where they were is
-// known by it. Its light is what the lamp sends now, or sent then: what goes out is dark at once in old samples too. The
-// way from the lamp to the place is not traced again.
-#if defined(TARN_LIGHT_HISTORY) && !defined(TARN_PLANT_STALE_LIGHT)
-SAMPLE relight(SAMPLE drawn, IncidentLight before, IncidentLight after, uint light, vec3 normal) {
-    float scale = ratio_or_zero(dot(drawn.path.incident, vec3(1.0f)), dot(before.value, vec3(1.0f)));
-    bool is_lit = light != INVALID_INDEX && dot(normal, after.direction) > 0.0f;
-    drawn.path.incident = is_lit ? after.value * scale : vec3(0.0f);
-    drawn.path.incident_direction = after.direction;
-    drawn.path.light.light = light;
-    return drawn;
-}
-
-SAMPLE move_to_present(SAMPLE drawn) {
-    LightSample then = drawn.path.light;
-    if (!is_sample(drawn) || !is_in_light_table(then)) return drawn;
-    LightSample now = LightSample(remap_light(then.light, false), then.uv);
-    return relight(drawn, load_previous_incident_light(then, load_previous_place(drawn).position),
-                   load_incident_light(now, drawn.place.position), now.light, drawn.place.normal);
-}
-
-SAMPLE move_to_previous(SAMPLE drawn) {
-    LightSample now = drawn.path.light;
-    if (!is_sample(drawn) || !is_in_light_table(now)) return drawn;
-    LightSample then = LightSample(remap_light(now.light, true), now.uv);
-    PathPlace place = load_previous_place(drawn);
-    if (then.light == INVALID_INDEX)
-        return relight(drawn, no_incident_light(), no_incident_light(), INVALID_INDEX, place.normal);
-    return relight(drawn, load_incident_light(now, drawn.place.position),
-                   load_previous_incident_light(then, place.position), then.light, place.normal);
-}
-#else
-SAMPLE move_to_previous(SAMPLE drawn) { return drawn; }
-SAMPLE move_to_present(SAMPLE drawn) { return drawn; }
-#endif
-
-// Area of the sample's triangle now over then.
-float area_ratio(SAMPLE drawn) {
-#ifdef TARN_MOTION
-    InstanceRecord now = load_instance(drawn.path.instance);
-    InstanceRecord then = load_instance(drawn.path.instance + frame_history.x);
-    uvec3 v = load_vertex_indices(now, drawn.path.primitive & ~PATH_BACK_FACE);
-    uvec3 w = load_vertex_indices(then, drawn.path.primitive & ~PATH_BACK_FACE);
-    vec3 origin_now = load_position_os(v.x);
-    vec3 origin_then = load_position_os(w.x);
-    float area_now = length(cross(transform_vector(now, load_position_os(v.y) - origin_now),
-                                  transform_vector(now, load_position_os(v.z) - origin_now)));
-    float area_then = length(cross(transform_vector(then, load_position_os(w.y) - origin_then),
-                                   transform_vector(then, load_position_os(w.z) - origin_then)));
-    return ratio_or_zero(area_now, area_then);
-#else
-    return 1.0f;
-#endif
-}
-
-// |dT/dx| from the previous receiver in the last frame to this one in the present: the place moves with its triangle.
-float temporal_jacobian(Receiver previous_receiver, Receiver here, SAMPLE present, SAMPLE previous) {
-    if (!reconnects(present) || !is_sample(previous)) return 0.0f;
-    PathPlace now = present.place;
-#ifdef TARN_MOTION
-    // Through solid angle per area then, area, and solid angle per area now.
-    PathPlace then = load_previous_place(previous);
-    vec3 a = previous_receiver.point.position - then.position;
-    vec3 b = here.point.position - now.position;
-    float a2 = dot(a, a);
-    float b2 = dot(b, b);
-    float before = dot(then.normal, a) * b2 * sqrt(b2);
-    float after = dot(now.normal, b) * a2 * sqrt(a2) * area_ratio(previous);
-    if (!(before > 0.0f) || !(after > 0.0f)) return 0.0f;
-    if (!(max(before, after) <= MAX_RECONNECTION_JACOBIAN * min(before, after))) return 0.0f;
-#ifdef TARN_PLANT_DROP_RECONNECTION_JACOBIAN
-    return 1.0f;
-#endif
-    return ratio_or_zero(after, before);
-#else
-    return bound_jacobian(previous_receiver.point.position, here.point.position, now);
-#endif
-}
-
-// p-hat in the last frame, of a receiver and a sample of the last frame.
-float previous_sample_target(Receiver previous, SAMPLE drawn) {
-    return target_at(previous, place_light(drawn.path, load_previous_place(drawn), previous.point.position));
-}
-
-// A ray of the last frame: to where the place was, past what stood in its way then.
-RayRecord previous_sample_ray(Receiver previous, SAMPLE drawn, ivec2 pixel) {
-    RayRecord ray = place_ray(previous, drawn.path, load_previous_place(drawn), pixel);
-    ray.pixel |= RAY_PREVIOUS;
-    return ray;
-}
+#include "lib/indirect/previous_paths.glsl"
 #endif

@@ -17,7 +17,8 @@
 //   TEMPORAL_DIMENSION, SPATIAL_DIMENSION      random dimensions (shared/math/random.h)
 //
 // and, for reuse over time: move_to_previous, move_to_present, temporal_jacobian, previous_sample_target,
-// previous_sample_ray.
+// previous_sample_ray; where samples carry light from further places (TARN_CARRIED_LIGHT) also can_ask_for_carried,
+// carried_ray, previous_carried_ray.
 #include "shared/math/reservoir.h"
 
 const uint RESERVOIR_STRIDE = RESERVOIR_ROWS + SAMPLE_ROWS;

@@ -11,6 +11,10 @@ layout(binding = UNIT_PASS_C) uniform usamplerBuffer previous_reservoirs;
 // The rays of a pixel: from here to the previous sample, from the previous receiver to the fresh one.
 const uint RAY_HERE = 0u;
 const uint RAY_PREVIOUS_RECEIVER = 1u;
+// Behind these, from slot `carried_rays` on, those that ask whether the light that samples carry still reaches them: the
+// previous sample in the present, the fresh one in the last frame.
+const uint CARRIED_HERE = 0u;
+const uint CARRIED_IN_PREVIOUS = 1u;
 
 // The two techniques.
 struct Pair {
@@ -142,6 +146,18 @@ float find_previous_at_fresh(Pair p) {
     return ratio_or_zero(previous_sample_target(p.previous_receiver, p.fresh_in_previous), p.fresh_jacobian);
 }
 
+// Whether the light that a sample carries reaches it, where this frame asks. Where the weights know all visibility a
+// sample that cannot be asked is none: its technique ends with the frame that changed something.
+float find_carried(SAMPLE drawn, ivec2 pixel, uint slot) {
+#if defined(TARN_CARRIED_LIGHT) && !defined(TARN_PLANT_TRUST_CARRIED_LIGHT)
+    if (carried_rays == INVALID_INDEX) return 1.0f;
+    if (!can_ask_for_carried(drawn)) return MIS_VISIBILITY ? 0.0f : 1.0f;
+    return load_answer(pixel, carried_rays + slot);
+#else
+    return 1.0f;
+#endif
+}
+
 PairTargets find_targets(Pair p, ivec2 pixel) {
     bool has_fresh = holds_sample(p.fresh);
     bool has_previous = holds_sample(p.previous);
@@ -155,6 +171,8 @@ PairTargets find_targets(Pair p, ivec2 pixel) {
         t.here_at_previous *= load_answer(pixel, RAY_HERE);
         t.previous_at_fresh *= load_answer(pixel, RAY_PREVIOUS_RECEIVER);
     }
+    t.here_at_previous *= find_carried(p.previous.chosen, pixel, CARRIED_HERE);
+    t.previous_at_fresh *= find_carried(p.fresh_in_previous, pixel, CARRIED_IN_PREVIOUS);
     return t;
 }
 
@@ -255,7 +273,23 @@ SampleReservoir merge(Pair p, ivec2 pixel) {
                         find_normalization(p, t, previous_leads));
 }
 
+void write_carried_rays(Pair p, ivec2 pixel) {
+#ifdef TARN_CARRIED_LIGHT
+    if (carried_rays == INVALID_INDEX) return;
+    RayRecord here = inactive_ray();
+    RayRecord in_previous = inactive_ray();
+    if (holds_sample(p.previous)) here = carried_ray(p.previous.chosen, pixel);
+    if (holds_sample(p.fresh) && is_sample(p.fresh_in_previous)) {
+        in_previous = previous_carried_ray(p.fresh_in_previous, p.previous_pixel);
+    }
+    store_ray(pixel, carried_rays + CARRIED_HERE, here);
+    store_ray(pixel, carried_rays + CARRIED_IN_PREVIOUS, in_previous);
+#endif
+}
+
 void write_rays(Pair p, ivec2 pixel) {
+    write_carried_rays(p, pixel);
+    if (!MIS_VISIBILITY) return;
     RayRecord from_here = inactive_ray();
     RayRecord from_previous = inactive_ray();
     if (holds_sample(p.previous)) from_here = sample_ray(p.here, p.previous.chosen, pixel);

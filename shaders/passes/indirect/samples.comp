@@ -82,8 +82,8 @@ void store(uint pixel, SampleReservoir r) {
 PathSample choose_direction(PathState s, PathPlace place, Receiver r, float u) {
     PathSample by_light = s.place;
     PathSample further = further_sample(s);
-    float first = target_at(r, place_light(by_light, place, r.point.position));
-    float second = target_at(r, place_light(further, place, r.point.position));
+    float first = path_target(r, place_light(by_light, place, r.point.position));
+    float second = path_target(r, place_light(further, place, r.point.position));
     float total = first + second;
     if (!(total > 0.0f)) return by_light;
     if (u * total < first) {
@@ -105,7 +105,7 @@ void main() {
         PathSample chosen =
             choose_direction(s, place, r, random4(pixel_key(pixel), DIMENSION_INDIRECT + 1u).x);
         IncidentLight light = place_light(chosen, place, r.point.position);
-        float target = target_at(r, light);
+        float target = path_target(r, light);
         LiveReservoir live = empty_live_reservoir();
         uint offer = offer_candidate(live, target, target == 0.0f ? 0.0f : target / path_pdf(r, light), 0.0f);
         if (offer == OFFER_BAD) count_event(COUNTER_BAD_WEIGHT);

@@ -29,7 +29,7 @@ SHARED_BEGIN
 
 // What the BRDF needs of a surface; textures and factors are already multiplied in.
 struct SurfaceMaterial {
-    vec3 diffuse_albedo;  // base colour * (1 - metallic)
+    vec3 diffuse_albedo;  // base colour * (1 - metallic), made whole under the layer (mix_material)
     vec3 f0;              // reflectance at normal incidence
     float f90;            // reflectance at grazing incidence; f0 = f90 = 0 is a pure Lambert surface
     float alpha;          // GGX width, roughness^2, at least MIN_ALPHA
@@ -123,6 +123,40 @@ FN vec3 transmit_to_base(SurfaceMaterial m, vec3 multiple_fresnel, LayerAlbedo a
 FN vec3 mean_multiple_fresnel(SurfaceMaterial m, float mean_loss) {
     vec3 mean = m.f0 + (vec3(m.f90) - m.f0) * (1.0f / 21.0f);
     return mean * mean * (1.0f - mean_loss) / (vec3(1.0f) - mean * mean_loss);
+}
+
+// The share of evenly arriving light that the layer lets through, on the mean over all directions.
+FN vec3 mean_transmission(SurfaceMaterial m, LayerAlbedo mean) {
+    return transmit_to_base(m, mean_multiple_fresnel(m, mean.loss), mean);
+}
+
+// glTF's mix of the BRDFs of a dielectric (`dielectric_f0`, `dielectric_f90`) and a metal (`base_color`):
+// specification, appendix B.2. Their layers become one with mixed f0 and f90, exact for single scattering,
+// since Schlick's term is linear in both. What is left of the energy of the true mix goes to the base: the
+// dielectric's own, which lies under a layer that lets more through than the mixed one, and what the mixed
+// layer lacks of multiple scattering. The sample formula of appendix B.3.5 gives the base what the mixed
+// layer lets through, and a white surface halfway between loses a quarter of the light.
+FN SurfaceMaterial mix_material(vec3 base_color, float metallic, vec3 dielectric_f0, float dielectric_f90,
+                                float alpha) {
+    SurfaceMaterial dielectric;
+    dielectric.diffuse_albedo = base_color;
+    dielectric.f0 = dielectric_f0;
+    dielectric.f90 = dielectric_f90;
+    dielectric.alpha = alpha;
+    SurfaceMaterial metal = dielectric;
+    metal.f0 = base_color;
+    metal.f90 = 1.0f;
+    SurfaceMaterial m = dielectric;
+    m.f0 = mix(dielectric_f0, base_color, metallic);
+    m.f90 = mix(dielectric_f90, 1.0f, metallic);
+    LayerAlbedo mean = evaluate_mean_layer_albedo(alpha);
+    vec3 mixed = mean_transmission(m, mean);
+    vec3 through = mean_transmission(dielectric, mean);
+    // Exactly 0 for dielectrics and metals.
+    vec3 missing = mixed - mix(through, mean_transmission(metal, mean), metallic);
+    vec3 base = base_color * through * (1.0f - metallic) + missing;
+    m.diffuse_albedo = clamp(base / max(mixed, vec3(LEAST_TRANSMISSION)), vec3(0.0f), vec3(1.0f));
+    return m;
 }
 
 // Probability of sampling the layer's single scattering. All else follows the cosine closely, so that its

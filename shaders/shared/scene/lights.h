@@ -12,6 +12,9 @@
 // section 5).
 CONSTANT_MEMBER float ENVIRONMENT_SHARE = 0.25f;
 
+// Triangles that are seen under less are drawn by area, sr.
+CONSTANT_MEMBER float LEAST_SOLID_ANGLE = 1e-3f;
+
 // A drawn sample and its density: pmf of the light times density in the light's measure (see math/light.h).
 struct LightCandidate {
     LightSample drawn;
@@ -147,6 +150,35 @@ FN LightCandidate draw_on_light(uint index, float pmf, vec2 u) {
     return c;
 }
 
+// The same for a light that sends its light to `point`: a triangle that is near is drawn evenly over the
+// solid angle under which the point sees it. The density is still that by area.
+FN LightCandidate draw_on_light_near(uint index, float pmf, vec2 u, vec3 point) {
+    LightCandidate c = draw_on_light(index, pmf, u);
+#ifndef TARN_PLANT_DRAW_NEAR_LIGHTS_BY_AREA
+    Light light = load_light(index);
+    vec3 to_light = light.position - point;
+    vec3 to_centre = to_light + (light.edge1 + light.edge2) * (1.0f / 3.0f);
+    float size2 = max(dot(light.edge1, light.edge1), dot(light.edge2, light.edge2));
+    // A loop that runs at most once: a software GPU skips it where no lane enters.
+    uint near = is_triangle(light) && size2 > 0.25f * dot(to_centre, to_centre) ? 1u : 0u;
+    for (; near != 0u; near = 0u) {
+        SphericalTriangle seen =
+            make_spherical_triangle(to_light, to_light + light.edge1, to_light + light.edge2);
+        // Angles near 0 have lost their digits in the sum of the corners.
+        if (seen.solid_angle < LEAST_SOLID_ANGLE) continue;
+        vec2 uv = find_barycentrics(sample_spherical_triangle(seen, u), to_light, light.edge1, light.edge2);
+        vec3 to_drawn = to_light + light.edge1 * uv.x + light.edge2 * uv.y;
+        float distance2 = dot(to_drawn, to_drawn);
+        // |cosine| / distance^2 is that of solid angle over area.
+        float projected = abs(dot(cross(light.edge1, light.edge2), to_drawn));
+        float area2 = 2.0f * triangle_area(light);
+        c.drawn.uv = uv;
+        c.pdf = ratio_or_zero(pmf * projected, area2 * distance2 * sqrt(distance2) * seen.solid_angle);
+    }
+#endif
+    return c;
+}
+
 // A direction of the sky, by importance.
 FN LightCandidate draw_environment(uvec4 bits) {
     uvec2 size = get_environment_size();
@@ -169,6 +201,15 @@ FN LightCandidate draw_light_by_power(uvec4 bits) {
     DiscreteSample light =
         resolve_alias(unpack_alias_bucket(fetch_light_alias_row(bucket)), bucket, float_from_bits(bits.y));
     return draw_on_light(light.index, light.pmf, vec2(float_from_bits(bits.z), float_from_bits(bits.w)));
+}
+
+// The same for a receiver at `point`.
+FN LightCandidate draw_light_near_by_power(uvec4 bits, vec3 point) {
+    uint bucket = uniform_index(bits.x, get_light_count());
+    DiscreteSample light =
+        resolve_alias(unpack_alias_bucket(fetch_light_alias_row(bucket)), bucket, float_from_bits(bits.y));
+    return draw_on_light_near(light.index, light.pmf, vec2(float_from_bits(bits.z), float_from_bits(bits.w)),
+                              point);
 }
 
 FN LightCandidate no_candidate() {

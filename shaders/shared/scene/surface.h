@@ -199,12 +199,8 @@ FN SurfaceMaterial evaluate_material(MaterialRecord m, uint material, VertexExtr
     vec4 mr = sample_slot(load_slot(material, SLOT_METALLIC_ROUGHNESS), extras.uv0, extras.uv1);
     float metallic = clamp(m.metallic * mr.z, 0.0f, 1.0f);
     float roughness = clamp(m.roughness * mr.y, 0.0f, 1.0f);
-    SurfaceMaterial result;
-    result.diffuse_albedo = base_color * (1.0f - metallic);
-    result.f0 = mix(m.dielectric_f0, base_color, metallic);
-    result.f90 = mix(m.dielectric_f90, 1.0f, metallic);
-    result.alpha = max(roughness * roughness, MIN_ALPHA);
-    return result;
+    return mix_material(base_color, metallic, m.dielectric_f0, m.dielectric_f90,
+                        max(roughness * roughness, MIN_ALPHA));
 }
 
 // The surface at `barycentrics` (weights of the second and third vertex), seen along `direction` (unit,
