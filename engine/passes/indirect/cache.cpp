@@ -35,7 +35,7 @@ CachePaths plan_paths(const FrameContext& frame, const SampleSlot& slot, double 
     paths.count = std::size_t(paths.size_px.x) * std::size_t(paths.size_px.y);
     const glm::uvec2 offset = pick_offset(frame.frame, STEP_PX);
     CacheConstants& c = paths.constants;
-    c.target_weights = glm::vec4(slot.target_weights, 0.0f);
+    c.target_weights = slot.target_weights;
     c.candidate_count = std::uint32_t(frame.plan.indirect.candidate_count);
     c.cache_width = std::uint32_t(paths.size_px.x);
     c.cache_height = std::uint32_t(paths.size_px.y);
