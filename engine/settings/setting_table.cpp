@@ -176,10 +176,11 @@ void add_indirect_rows(std::vector<Setting>& table) {
             &S::noise, {"white", "blue"})
         .number("indirect-candidates", "", "Light candidates at each surface that a path meets",
                 &S::candidates, 1, 64)
-        .choose("indirect-cache",
-                "Light of all further bounces, where paths end: none, what the last frame saw there, or a grid "
-                "in world space; biased",
-                &S::cache, {"off", "screen", "world"});
+        .choose(
+            "indirect-cache",
+            "Light of all further bounces, where paths end: none, what the last frame saw there, or a grid "
+            "in world space; biased",
+            &S::cache, {"off", "screen", "world"});
 }
 
 void add_view_rows(std::vector<Setting>& table) {

@@ -15,10 +15,10 @@
 struct PathState {
     PathSample place;
     vec3 further_direction;
-    vec3 further;     // over the density of its direction
+    vec3 further;                // over the density of its direction
     bool further_is_irradiance;  // out of a cache, W/m^2, and from no direction
-    vec3 throughput;  // BRDF * cosine / density along the way; first: 1 / density
-    vec3 waiting;     // throughput included
+    vec3 throughput;             // BRDF * cosine / density along the way; first: 1 / density
+    vec3 waiting;                // throughput included
 };
 
 PathState load_path_state(usamplerBuffer rows, uint pixel) {

@@ -18,8 +18,8 @@
 #include "shared/math/random.h"
 
 const int CACHE_SIZES = 2;
-const float CACHE_COARSE = 4.0f;          // edge of a coarse cell over that of a fine one
-const float CACHE_COARSE_WEIGHT = 4.0f;   // samples of a fine cell that all of a coarse one stand for at most
+const float CACHE_COARSE = 4.0f;         // edge of a coarse cell over that of a fine one
+const float CACHE_COARSE_WEIGHT = 4.0f;  // samples of a fine cell that all of a coarse one stand for at most
 
 #ifdef TARN_SMALL_CACHE
 const uint CACHE_BUCKETS_USED = 32u;  // of a test

@@ -19,7 +19,9 @@ layout(std430, binding = 0) writeonly buffer Rays { uvec4 out_rays[]; };
 layout(std430, binding = 1) buffer Sums { uint sums[]; };
 
 // Of those that ask for the same place in one frame the greatest checksum is heard; the others ask again.
-void ask_for_place(CacheKey key) { atomicMax(sums[sum_word(key.bucket, key.place) + CACHE_ASKING], key.checksum); }
+void ask_for_place(CacheKey key) {
+    atomicMax(sums[sum_word(key.bucket, key.place) + CACHE_ASKING], key.checksum);
+}
 
 RayRecord leave_place(PathSample path, PathPlace place, ivec2 pixel, uint index) {
     ShadingPoint point;

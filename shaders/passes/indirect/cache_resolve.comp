@@ -40,9 +40,7 @@ Bucket load_bucket(int row) {
 }
 
 // Sum of this frame, in W/m^2.
-vec3 read_sum(uvec4 low, uvec4 high) {
-    return (vec3(high.xyz) + vec3(low.xyz) * exp2(-32.0f)) * cache_unit;
-}
+vec3 read_sum(uvec4 low, uvec4 high) { return (vec3(high.xyz) + vec3(low.xyz) * exp2(-32.0f)) * cache_unit; }
 
 CacheCell age_cell(CacheCell cell, uvec4 low, uvec4 high) {
     float count = float(low[CACHE_COUNT]);
@@ -103,5 +101,6 @@ void main() {
     for (uint i = 0u; i < CACHE_PLACES; ++i) let_in(b, asking[i]);
     out_cells[row] = uvec4(b.keys[0], b.keys[1], b.keys[2], b.keys[3]);
     out_cells[row + 1u] = uvec4(b.keys[4], b.keys[5], b.keys[6], b.keys[7]);
-    for (uint i = 0u; i < CACHE_PLACES; ++i) out_cells[row + CACHE_KEY_ROWS + i] = pack_cache_cell(b.cells[i]);
+    for (uint i = 0u; i < CACHE_PLACES; ++i)
+        out_cells[row + CACHE_KEY_ROWS + i] = pack_cache_cell(b.cells[i]);
 }
