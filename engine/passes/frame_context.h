@@ -37,7 +37,8 @@ struct FrameContext {
     std::optional<PreviousRays> previous = std::nullopt;
     bool has_moved = false;      // camera, lights or geometry, since the last frame
     bool scene_changed = false;  // lights, geometry or materials, since the last frame
-    bool paths_may_be_stale = false;  // the scene changed since kept path samples were last asked for their lamps
+    bool paths_may_be_stale =
+        false;  // the scene changed since kept path samples were last asked for their lamps
 
     PassRecorder pass(const std::string& name) const { return recorder.pass(name); }
 

@@ -1,14 +1,14 @@
-// Indirect light while things move: lamps that grow and shrink, reflectors that turn and grow, blinds that come
-// between a place and its lamp or go away. Weights that trace visibility have the reference's mean at that very
-// moment, and the mistakes of motion are found. TARN_TEST_SEEDS=N takes N seeds.
+// Indirect light while things move: lamps that grow and shrink, reflectors that turn and grow, blinds that
+// come between a place and its lamp or go away. Weights that trace visibility have the reference's mean at
+// that very moment, and the mistakes of motion are found. TARN_TEST_SEEDS=N takes N seeds.
 #include "motion_run.h"
 #include "support/indirect_scenes.h"
 
 namespace tarn::test {
 namespace {
 
-// A picture of indirect light alone is noisy, in its dark corners above all. Mistakes of motion are large in these
-// rooms: few seeds show them.
+// A picture of indirect light alone is noisy, in its dark corners above all. Mistakes of motion are large in
+// these rooms: few seeds show them.
 constexpr Power POWER{0.03, 0.3};
 constexpr int SEEDS_TO_FIND_A_BUG = 16;
 
@@ -24,7 +24,8 @@ class IndirectMotion : public MotionTest {
         MotionTest::expect_found(moving, method, planted, SEEDS_TO_FIND_A_BUG);
     }
 
-    // Path samples reused without bias. Direct light keeps no history, and a long one of paths shows its faults.
+    // Path samples reused without bias. Direct light keeps no history, and a long one of paths shows its
+    // faults.
     static MotionMethod paths(const std::string& name, Mis mis = Mis::PAIRWISE, int bounces = 1) {
         RenderSettings settings = find_preset("unbiased").settings;
         settings.direct.mode = DirectMode::RIS;
@@ -36,9 +37,7 @@ class IndirectMotion : public MotionTest {
         return {name, [settings](int) { return settings; }};
     }
 
-    static std::vector<MotionMethod> both() {
-        return {paths("pairwise"), paths("balance", Mis::BALANCE)};
-    }
+    static std::vector<MotionMethod> both() { return {paths("pairwise"), paths("balance", Mis::BALANCE)}; }
 };
 
 TEST_F(IndirectMotion, LampsThatGrow) {

@@ -1,5 +1,6 @@
-// Rooms that are lit indirectly while something in them moves. The lamp shines at the ceiling: what the camera
-// sees of the walls and the floor has come by way of other surfaces, and any fault of path samples shows.
+// Rooms that are lit indirectly while something in them moves. The lamp shines at the ceiling: what the
+// camera sees of the walls and the floor has come by way of other surfaces, and any fault of path samples
+// shows.
 #pragma once
 
 #include "support/moving_scenes.h"
@@ -30,8 +31,7 @@ inline ToyScene make_room(bool has_ceiling = true) {
     toy.add_quad(paint(0.6f, 0.7f, 0.7f), {-1.5f, 0, -1.5f}, {3, 0, 0}, {0, 2.4f, 0});
     toy.add_quad(paint(0.7f, 0.4f, 0.3f), {-1.5f, 0, 2}, {0, 0, -3.5f}, {0, 2.4f, 0});
     toy.add_quad(paint(0.3f, 0.6f, 0.4f), {1.5f, 0, -1.5f}, {0, 0, 3.5f}, {0, 2.4f, 0});
-    if (has_ceiling)
-        toy.add_quad(paint(0.8f, 0.8f, 0.8f), {-1.5f, 2.4f, -1.5f}, {3, 0, 0}, {0, 0, 3.5f});
+    if (has_ceiling) toy.add_quad(paint(0.8f, 0.8f, 0.8f), {-1.5f, 2.4f, -1.5f}, {3, 0, 0}, {0, 0, 3.5f});
     return toy;
 }
 
@@ -89,13 +89,14 @@ inline MovingScene make_moving_reflector(double rate, double turn_rad) {
             glm::rotate(glm::dmat4(1.0), 0.4 + turn_rad * left, glm::dvec3(1.0, 0.1, 0.6));
         const glm::dmat4 place = glm::translate(
             glm::dmat4(1.0), lamp_place_ws() + glm::dvec3(0.01 * left, 0.7 + 0.01 * left, 0.0));
-        put(scene, reflector, place * tilt * glm::scale(glm::dmat4(1.0), glm::dvec3(std::pow(1.0 + rate, left))));
+        put(scene, reflector,
+            place * tilt * glm::scale(glm::dmat4(1.0), glm::dvec3(std::pow(1.0 + rate, left))));
     };
     return moving;
 }
 
-// A blind slides by `step_m` a frame between the lamp and the ceiling, or between the sky and the room; in the
-// last frame it covers half. Positive: it comes, negative: it goes.
+// A blind slides by `step_m` a frame between the lamp and the ceiling, or between the sky and the room; in
+// the last frame it covers half. Positive: it comes, negative: it goes.
 inline MovingScene make_sliding_blind(double step_m, bool under_a_sky = false) {
     ToyScene toy = make_room(!under_a_sky);
     if (!under_a_sky) add_uplight(toy);
@@ -103,7 +104,8 @@ inline MovingScene make_sliding_blind(double step_m, bool under_a_sky = false) {
     MovingScene moving = view_room(std::move(toy));
     if (under_a_sky) moving.options = even_sky(glm::vec3(0.8f, 0.9f, 1.2f));
     const double size = under_a_sky ? 4.0 : 1.0;
-    const glm::dvec3 place = under_a_sky ? glm::dvec3(0.0, 2.5, 0.0) : lamp_place_ws() + glm::dvec3(0, 0.1, 0);
+    const glm::dvec3 place =
+        under_a_sky ? glm::dvec3(0.0, 2.5, 0.0) : lamp_place_ws() + glm::dvec3(0, 0.1, 0);
     moving.pose = [=](Scene& scene, int frame) {
         const double away_m = BLIND_HALF_M * size - step_m * (frame - LAST_FRAME);
         put(scene, blind, place_at(place + glm::dvec3(away_m, 0.0, 0.0), glm::dvec3(size)));

@@ -17,8 +17,8 @@ Samples reuse_over_time(const FrameContext& frame, const ReuseShaders& shaders, 
         frame.has_moved ? std::min(settings.motion_cap, settings.confidence_cap) : settings.confidence_cap;
     ReuseKernel kernel;
     kernel.shaders = shaders;
-    // One ray each way (RAY_HERE, RAY_PREVIOUS_RECEIVER in the shader), and as many for the light that samples
-    // carry.
+    // One ray each way (RAY_HERE, RAY_PREVIOUS_RECEIVER in the shader), and as many for the light that
+    // samples carry.
     kernel.rays_per_pixel = plan.traces_in_mis ? 2 : 0;
     kernel.constants.carried_rays = INVALID_INDEX;
     if (input.tests_carried_light) {

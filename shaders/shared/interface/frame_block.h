@@ -21,8 +21,9 @@ struct FrameBlock {
     vec4 frame_previous_right;
     vec4 frame_previous_up;
     vec4 frame_previous_forward;
-    uvec4 frame_history;  // first previous instance; first row of the previous lights; first row of the light
-                          // remap or INVALID_INDEX where every light kept its index; 1 where materials changed
+    uvec4
+        frame_history;   // first previous instance; first row of the previous lights; first row of the light
+                         // remap or INVALID_INDEX where every light kept its index; 1 where materials changed
     vec4 frame_jitter;   // where in a pixel its ray goes through, from the centre, pixels: this frame (x, y),
                          // the last one (z, w)
     uvec4 frame_tables;  // nodes of the light tree; first rows of the light lookup by instance and by slot; 0
