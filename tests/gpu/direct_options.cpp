@@ -184,13 +184,13 @@ TEST(BoilingFilter, DropsThoseThatOutweighTheirBlockAndNoOthers) {
 // ---- Every setting
 // ---------------------------------------------------------------------------------------------------
 
-// Puts the last thing of the scene where it was, or higher.
-void lift_last(test::TestScene& scene, double by_m) {
+// Puts the last thing of the scene where it was, or to the side.
+void shift_last(test::TestScene& scene, double by_m) {
     Node& node = at(scene.scene.nodes, scene.scene.instances.back().node);
     if (node.matrix) {
-        (*node.matrix)[3].y += by_m;
+        (*node.matrix)[3].x += by_m;
     } else {
-        node.local.translation.y += by_m;
+        node.local.translation.x += by_m;
     }
     ++scene.scene.revision;
     update_world(scene.world, scene.scene, 0.0);
@@ -199,7 +199,7 @@ void lift_last(test::TestScene& scene, double by_m) {
 
 // The last of some frames: camera and scene stand still, then the camera walks and a thing has moved.
 Image render_walk(test::TestScene& scene, const RenderSettings& settings) {
-    constexpr double LIFT_M = 0.1;
+    constexpr double SHIFT_M = 0.05;
     Renderer renderer(scene.world, *scene.tracer, WIDTH_PX, HEIGHT_PX);
     FrameInput input;
     input.camera = test::first_camera(scene, double(WIDTH_PX) / HEIGHT_PX);
@@ -208,12 +208,12 @@ Image render_walk(test::TestScene& scene, const RenderSettings& settings) {
     for (input.frame = 0; input.frame < 6; ++input.frame) {
         if (input.frame >= 3) input.camera.position += 0.03f * input.camera.right;
         if (input.frame == 3) {
-            lift_last(scene, LIFT_M);
+            shift_last(scene, SHIFT_M);
             renderer.update();
         }
         last = renderer.read_radiance(renderer.render(input).radiance);
     }
-    lift_last(scene, -LIFT_M);
+    shift_last(scene, -SHIFT_M);
     return last;
 }
 
