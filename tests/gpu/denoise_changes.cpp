@@ -81,7 +81,8 @@ TEST_F(DenoiseChanges, AShadowThatFallsShowsAtOnce) {
     const auto noisy = render_change(Change::SHADOW_FALLS, DenoiseMode::OFF);
     const double after = noisy.back();
     const auto adaptive = render_change(Change::SHADOW_FALLS, DenoiseMode::SVGF);
-    EXPECT_LE(find_lag(adaptive, after), 2) << testing::PrintToString(adaptive) << ", without a denoiser " << testing::PrintToString(noisy);
+    EXPECT_LE(find_lag(adaptive, after), 2)
+        << testing::PrintToString(adaptive) << ", without a denoiser " << testing::PrintToString(noisy);
     EXPECT_GE(find_lag(render_change(Change::SHADOW_FALLS, DenoiseMode::SVGF_STATIC), after), 8);
 }
 
