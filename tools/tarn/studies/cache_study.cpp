@@ -26,13 +26,13 @@ struct CacheStudy {
 
 constexpr int ALL_BOUNCES = 59;  // surfaces before the one that is seen: the reference takes no more
 
-struct Variant {
+struct CacheVariant {
     IndirectCache cache;
     int bounces;
     const char* name;
 };
 
-constexpr Variant VARIANTS[] = {
+constexpr CacheVariant VARIANTS[] = {
     {IndirectCache::OFF, 1, "1"},
     {IndirectCache::OFF, 2, "2"},
     {IndirectCache::OFF, 4, "4"},
@@ -106,7 +106,8 @@ struct Measured {
     double ms = std::numeric_limits<double>::infinity();  // as in Run
 };
 
-Measured measure(RenderSession& session, const CacheStudy& study, const Variant& variant, const Image& all) {
+Measured measure(RenderSession& session, const CacheStudy& study, const CacheVariant& variant,
+                 const Image& all) {
     RenderSettings with = study.options.settings;
     with.indirect.cache = variant.cache;
     with.indirect.bounces = variant.bounces;
@@ -137,7 +138,7 @@ void run(const CacheStudy& study) {
     Json rows = Json::array();
     fmt::print("{:<12} {:>26} {:>26} {:>10} {:>14}\n", "bounces", "energy / as many bounces",
                "energy / all bounces", "relMSE", "indirect [ms]");
-    for (const Variant& variant : VARIANTS) {
+    for (const CacheVariant& variant : VARIANTS) {
         const Measured m = measure(session, study, variant, all);
         const bool ends = variant.cache == IndirectCache::OFF;
         const double same = ends ? mean_of(references.find(variant.bounces)) : all_energy;
