@@ -43,6 +43,8 @@ class IndirectScenes : public OnContext<testing::TestWithParam<const char*>> {
     void SetUp() override {
         const std::filesystem::path file = DirectLightCase::file_of(GetParam());
         if (!std::filesystem::exists(file)) GTEST_SKIP() << file.string() << " is not here";
+        if (GetParam() == std::string("SponzaDabrovic") && !is_thorough())
+            GTEST_SKIP() << "takes minutes; TARN_TEST_SEEDS=32 runs it";
         if (case_ && case_->name() == GetParam()) return;
         case_.reset();
         const double draws =
@@ -98,7 +100,7 @@ class IndirectScenes : public OnContext<testing::TestWithParam<const char*>> {
 TEST_P(IndirectScenes, FirstFramesHaveTheReferencesMean) {
     if (GetParam() == std::string("lantern_court") && !is_thorough())
         GTEST_SKIP()
-            << "its single frames meet some lights in no seed out of 128; TARN_TEST_SEEDS=32 runs it";
+            << "known to fail: 0.44 % too dark (p 1.4e-5), not explained; TARN_TEST_SEEDS=32 runs it";
     EXPECT_TRUE(test(run(FIRST_FRAME_SEEDS_FACTOR * seed_count(), 0), "frame 1"));
 }
 
