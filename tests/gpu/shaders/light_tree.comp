@@ -8,6 +8,7 @@
 #include "shared/math/random.h"
 #include "shared/math/ray_offset.h"
 #include "shared/math/shading.h"
+#include "shared/math/spherical_triangle.h"
 #include "shared/math/texture_filter.h"
 
 layout(local_size_x = 64) in;
