@@ -87,6 +87,32 @@ TEST(DenoisePass, WhatIsNotLitStaysBlackAndLendsNothing) {
     }
 }
 
+// What a mirror shows changes from pixel to pixel, though the mirror is even: stripes that a rough layer
+// would blur.
+double error_of_stripes(float alpha, const Defines& planted = {}) {
+    DenoiseStage stage(SIZE_PX);
+    stage.alpha = alpha;
+    stage.plant(planted);
+    const auto stripe = [](int x) { return x % 4 < 2 ? 1.0f : 3.0f; };
+    const Denoised found = stage.render(
+        meet_wall, [&](const glm::ivec2& pixel, const Met&) { return glm::vec2(1.0f, stripe(pixel.x)); });
+    double error = 0.0;
+    for (std::size_t i = 0; i < found.light.size(); ++i) {
+        const double wrong = double(found.light[i].y) - double(stripe(int(i) % SIZE_PX.x));
+        error = std::max(error, std::abs(wrong));
+    }
+    return error;
+}
+
+TEST(DenoisePass, MirrorsKeepWhatTheyShow) {
+    EXPECT_LT(error_of_stripes(0.002f), 1e-4);
+    EXPECT_GT(error_of_stripes(0.5f), 0.1) << "a rough layer shows no stripes: they are noise";
+}
+
+TEST(DenoisePass, LobesThatAreTakenToBeWideAreFound) {
+    EXPECT_GT(error_of_stripes(0.002f, {"TARN_PLANT_WIDE_LOBES"}), 0.1);
+}
+
 // ---- Noise
 
 // One sample a pixel: 0 three times in four, 4 times the mean else.

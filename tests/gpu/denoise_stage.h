@@ -24,12 +24,11 @@ using SceneOf = std::function<Met(const glm::vec3& origin, const glm::vec3& dire
 // Light without albedo: base, and what arrives at the layer.
 using LightOf = std::function<glm::vec2(const glm::ivec2& pixel, const Met& met)>;
 
-constexpr float ALPHA = 0.5f;
 constexpr glm::vec3 F0(0.04f);
 
 // The share of arriving light that the layer reflects, by the formula of the BRDF's own lobes.
-inline float layer_share(float view_cosine) {
-    const SurfaceMaterial material{glm::vec3(0.5f), F0, 1.0f, ALPHA};
+inline float layer_share(float alpha, float view_cosine) {
+    const SurfaceMaterial material{glm::vec3(0.5f), F0, 1.0f, alpha};
     const BrdfView view =
         prepare_brdf(material, {std::sqrt(1.0f - view_cosine * view_cosine), 0.0f, view_cosine});
     const LayerAlbedo albedo = evaluate_layer_albedo(view.fit, view_cosine);
@@ -54,6 +53,7 @@ class DenoiseStage {
     }
 
     RenderSettings settings;
+    float alpha = 0.5f;  // GGX width of all surfaces
 
     void plant(const Defines& defines) { context_.plant(defines); }
     void move_camera(const glm::vec3& by) { camera_.position += by; }
@@ -98,11 +98,11 @@ class DenoiseStage {
             for (int x = 0; x < size_px_.x; ++x) {
                 const Met m = scene(camera_.position, direction(x, y));
                 met.push_back(m);
-                shares_.push_back(layer_share(std::max(1e-3f, -glm::dot(m.normal, direction(x, y)))));
+                shares_.push_back(layer_share(alpha, std::max(1e-3f, -glm::dot(m.normal, direction(x, y)))));
                 const glm::vec2 normal = encode_octahedral(m.normal);
                 layers[0].emplace_back(m.position, m.lit ? 1e-6f : -1.0f);
                 layers[1].emplace_back(normal, normal);
-                layers[2].emplace_back(glm::vec3(0.5f), ALPHA);
+                layers[2].emplace_back(glm::vec3(0.5f), alpha);
                 layers[3].emplace_back(F0, 1.0f);
             }
         }

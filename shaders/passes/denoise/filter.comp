@@ -4,7 +4,8 @@
 //
 // The weight of a tap is a product: the kernel, how far it lies from the pixel's plane, how far its normal is turned, and
 // how far its luminance differs, measured by what the variance of both explains. Base and layer have weights of their
-// own. All are divided by their sum. The variance goes along: that of a mean is the sum of squared weights times variances.
+// own: that of the layer also falls with the angle under which the taps lie apart, over the width of its lobe, so that
+// mirrors keep what they show. All are divided by their sum. The variance goes along: that of a mean is the sum of squared weights times variances.
 //
 // The filter of Schied et al. blurs the variance before it asks it. Here a tap's own variance counts beside that of the
 // pixel: weights are alike both ways, so that light that a pixel takes others give, and the energy stays.
@@ -59,6 +60,7 @@ struct Centre {
     vec2 normal;
     vec2 normal_scale;  // base, layer: 1 / greatest squared distance
     float alpha;
+    float lobe_scale;  // squared: widths of the layer's lobe by which the view turns from a pixel to the next
     vec2 luminances;
     vec2 variances;
 };
@@ -86,6 +88,7 @@ Centre load_centre(ivec2 pixel, Guide guide, vec4 diffuse, vec4 specular) {
     const float TOLERANCE_PX = 3.0f;
     const float MAX_SQUARED_CHORD = 0.2f;   // of the base: 26 degrees
     const float LEAST_LAYER_CHORD = 0.01f;  // of a mirror
+    const float LOBE_WIDTHS = 1.0f;         // beyond which a tap sees another reflection
     CameraRecord camera = frame_camera();
     vec3 position = load_layer(pixel, LAYER_POSITION).xyz;
     vec3 normal = decode_octahedral(load_layer(pixel, LAYER_NORMALS).xy);
@@ -97,6 +100,8 @@ Centre load_centre(ivec2 pixel, Guide guide, vec4 diffuse, vec4 specular) {
     float layer_chord = mix(LEAST_LAYER_CHORD, MAX_SQUARED_CHORD, min(1.0f, 2.0f * guide.alpha));
     c.normal_scale = chord_factor(guide.normal) / vec2(MAX_SQUARED_CHORD, layer_chord);
     c.alpha = guide.alpha;
+    float turn = camera.orthographic ? 0.0f : pixel_height(camera, float(frame_size.y), 1.0f);
+    c.lobe_scale = turn * turn / (LOBE_WIDTHS * LOBE_WIDTHS * guide.alpha * guide.alpha);
     c.luminances = vec2(luminance(diffuse.xyz), luminance(specular.xyz));
     c.variances = vec2(max(diffuse.w, 0.0f), max(specular.w, 0.0f));
     return c;
@@ -143,6 +148,10 @@ void add_tap(inout Mean base, inout Mean layer, Centre c, bvec2 known, ivec2 off
 #ifndef TARN_LAMBERT_ONLY
     const float MAX_ALPHA_DIFFERENCE = 0.25f;
     float rougher = (guide.alpha - c.alpha) * (1.0f / MAX_ALPHA_DIFFERENCE);
+#ifndef TARN_PLANT_WIDE_LOBES
+    vec2 away_px = vec2(pixel - c.pixel);
+    near *= fade(dot(away_px, away_px) * c.lobe_scale);
+#endif
     light = texelFetch(in_specular, place, 0);
     value = luminance(light.xyz);
     weight = is_known(light) ? near * fade(chord * c.normal_scale.y) * fade(rougher * rougher) : 0.0f;
