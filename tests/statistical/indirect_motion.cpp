@@ -10,13 +10,15 @@ namespace {
 // A picture of indirect light alone is noisy, in its dark corners above all. Mistakes of motion are large in
 // these rooms: few seeds show them.
 constexpr Power POWER{0.03, 0.3};
+constexpr int SEEDS_FOR_POWER = 40;
 constexpr int SEEDS_TO_FIND_A_BUG = 16;
 
 class IndirectMotion : public MotionTest {
   protected:
     static void expect_no_bias(const MovingScene& moving, const std::vector<MotionMethod>& methods) {
         const char* asked = std::getenv("TARN_TEST_SEEDS");
-        MotionTest::expect_no_bias(moving, methods, asked ? std::max(8, std::atoi(asked)) : SEEDS, POWER);
+        MotionTest::expect_no_bias(moving, methods, asked ? std::max(8, std::atoi(asked)) : SEEDS_FOR_POWER,
+                                   POWER);
     }
 
     static void expect_found(const MovingScene& moving, const MotionMethod& method,
