@@ -34,6 +34,15 @@ RenderSettings fast_settings() {
     return settings;
 }
 
+// For people who want to see the scene: all light, denoised. Mirrors need the candidate along the BRDF.
+RenderSettings clean_settings() {
+    RenderSettings settings = fast_settings();
+    settings.direct.brdf_candidate = true;
+    settings.indirect.mode = IndirectMode::RESTIR;
+    settings.denoise.mode = DenoiseMode::SVGF;
+    return settings;
+}
+
 RenderSettings balanced_settings() {
     RenderSettings settings;
     DirectSettings& s = settings.direct;
@@ -86,6 +95,8 @@ RenderSettings student_settings() {
 
 const std::vector<Preset>& preset_table() {
     static const std::vector<Preset> table = {
+        {"clean", "fast and one ray along the BRDF a pixel, with indirect light, denoised", clean_settings(),
+         0.08},
         {"fast", "two shadow rays a pixel, visibility averaged: some bias, least noise for its time",
          fast_settings(), 0.05},
         {"balanced",

@@ -59,6 +59,7 @@ std::vector<ImageSequence> list_sequences() {
     for (const char* method : {"path", "restir_gi"}) {
         list.push_back({"cornell", "main", method, 1.5f, {1, 16}, RESAMPLED});
     }
+    list.push_back({"lantern_court", "main", "clean", 2.0f, {1, 16}, RESAMPLED});
     for (const char* preset : {"balanced", "unbiased"}) {
         list.push_back({"lantern_court", "main", preset, 2.0f, from_first_to_last, RESAMPLED});
     }

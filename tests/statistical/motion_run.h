@@ -102,7 +102,8 @@ class MotionTest : public OnContext<> {
         std::vector<const Preset*> presets;
         std::vector<MotionMethod> methods;
         for (const Preset& preset : preset_table()) {
-            if (preset.energy_bound == 0.0) continue;
+            // The reference is that of direct light.
+            if (preset.energy_bound == 0.0 || preset.settings.indirect.runs()) continue;
             presets.push_back(&preset);
             methods.push_back({preset.name, [&preset](int) { return preset.settings; }});
         }
