@@ -285,6 +285,32 @@ TEST(Rays, updates_follow_deformed_meshes_and_moved_instances) {
     }
 }
 
+// What begins to move leaves the still scene; one without it is built and takes over some updates later; what
+// has rested for long enough joins again when the next one is built. Updates without any change count as
+// well.
+TEST(Rays, updates_follow_what_begins_to_move_and_comes_to_rest) {
+    World world = make_soup(false);
+    const auto embree = create_embree_tracer(world);
+    Rng rng(41);
+    const auto move = [&](std::uint32_t i) {
+        WorldInstance& instance = world.instances[i];
+        instance.world_from_object[3] += glm::vec4(random_point(rng, 1.0f), 0.0f);
+        ++instance.revision;
+    };
+    for (int step = 0; step < 100; ++step) {
+        if (step < 3) move(0);
+        if (step == 5) move(2);   // while the first scene is being built
+        if (step == 30) move(4);  // flattened
+        if (step == 75) move(1);  // the others have come to rest
+        if (step == 78) move(0);  // and is in the scene that is being built
+        embree->update(world);
+        const auto oracle = create_brute_force_tracer(world);
+        const Disagreements d = compare_closest(*embree, *oracle, {}, BackFaces::PASS, 400);
+        EXPECT_GT(d.hits, 80);
+        EXPECT_EQ(d.unexplained, 0) << step;
+    }
+}
+
 TEST(Rays, updates_follow_memory_that_moved) {
     World world = make_soup(false);
     const auto embree = create_embree_tracer(world);
