@@ -13,12 +13,11 @@ elseif(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   message(WARNING "CMAKE_BUILD_TYPE is empty: Tarn is built without optimization and renders many times slower")
 endif()
 
-# Several sources of a library or program are compiled as one: most of the time goes into what they include. So names in
+# Up to eight sources of a library or program are compiled as one: most of the time goes into what they include. So names in
 # the anonymous namespaces of a folder must differ. -DCMAKE_UNITY_BUILD=OFF compiles each alone, as the preset debug does.
 if(PROJECT_IS_TOP_LEVEL AND NOT DEFINED CMAKE_UNITY_BUILD)
   set(CMAKE_UNITY_BUILD ON)
 endif()
-set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
 
 # No fused multiply-add: the shared shader math must round the same way on every machine.
 add_compile_options(-Wall -Wextra -ffp-contract=off)

@@ -4,6 +4,7 @@
 #include "shared/interface/constants/shade.h"
 
 namespace tarn {
+
 ReflectedLight shade_direct(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,
                             const ShadeInput& input, const ReflectedLight& earlier) {
     const DirectPlan& plan = frame.plan.direct;

@@ -21,8 +21,6 @@ IndirectShadeVariant variant_for(const FrameContext& frame, const ShadeInput& in
 
 ReflectedLight shade_indirect(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,
                               const ShadeInput& input, const ReflectedLight& earlier) {
-    // The sum of the only samples is the light.
-    if (input.summed && frame.plan.indirect.targets.size() == 1) return input.summed;
     const ReflectedLight light = earlier ? earlier : take_reflected_light(frame, "indirect/light");
     PassRecorder pass = frame.pass("indirect/shade");
     read_gbuffer(pass, gbuffer).constants(constants_for(frame, slot));

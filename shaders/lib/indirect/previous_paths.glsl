@@ -76,6 +76,16 @@ void lose_lamp(inout PathSample path) {
     path.incident = vec3(0.0f);
 }
 
+// The lamp that was `before` is `after`, row `index` of the other frame's table; the place goes along, `from` one point `to`
+// another.
+void follow_lamp(inout PathSample path, Light before, Light after, uint index, vec3 from, vec3 to) {
+    vec2 uv = path.light.uv;
+    relight(path, incident_from_light(before, uv, from), incident_from_light(after, uv, to),
+            lamp_area_ratio(before, after));
+    path.light.light = index;
+    if (index == INVALID_INDEX) lose_lamp(path);
+}
+
 // A sample of the last frame in this one.
 SAMPLE move_to_present(SAMPLE drawn) {
     if (!is_sample(drawn)) return drawn;
@@ -89,11 +99,7 @@ SAMPLE move_to_present(SAMPLE drawn) {
         Light before = load_previous_light(drawn.path.light.light);
         uint index = remap_light(drawn.path.light.light, false);
         Light after = load_light(index == INVALID_INDEX ? 0u : index);
-        vec2 uv = drawn.path.light.uv;
-        relight(drawn.path, incident_from_light(before, uv, then.position),
-                incident_from_light(after, uv, drawn.place.position), lamp_area_ratio(before, after));
-        drawn.path.light.light = index;
-        if (index == INVALID_INDEX) lose_lamp(drawn.path);
+        follow_lamp(drawn.path, before, after, index, then.position, drawn.place.position);
     }
 #endif
     drop_light_from_behind(drawn.path, drawn.place);
@@ -110,11 +116,7 @@ SAMPLE move_to_previous(SAMPLE drawn) {
         Light before = load_light(drawn.path.light.light);
         uint index = remap_light(drawn.path.light.light, true);
         Light after = load_previous_light(index == INVALID_INDEX ? 0u : index);
-        vec2 uv = drawn.path.light.uv;
-        relight(drawn.path, incident_from_light(before, uv, drawn.place.position),
-                incident_from_light(after, uv, then.position), lamp_area_ratio(before, after));
-        drawn.path.light.light = index;
-        if (index == INVALID_INDEX) lose_lamp(drawn.path);
+        follow_lamp(drawn.path, before, after, index, drawn.place.position, then.position);
     }
 #endif
     drop_light_from_behind(drawn.path, then);
