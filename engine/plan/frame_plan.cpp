@@ -41,7 +41,6 @@ bool shows_paths(DebugView view) {
 std::vector<PlannedPass> list_passes(const DirectPlan& plan) {
     const ReusePlan& reuse = plan.reuse;
     return {
-        {"lights/tree", plan.light_tree, "lights are drawn by the tree"},
         {"direct/light_tiles", plan.light_tiles, "candidates come from tiles"},
         {"direct/brdf_rays", plan.brdf_rays, "one candidate comes from a ray along the BRDF"},
         {"direct/initial_visibility", reuse.tests_fresh_samples,
@@ -66,6 +65,7 @@ std::vector<PlannedPass> list_passes(const IndirectPlan& plan) {
         {"indirect/hits", plan.runs, "and meets surfaces"},
         {"indirect/vertices", plan.runs, "which are lit by light samples"},
         {"indirect/shadows", plan.runs, "if these are seen"},
+        {"indirect/light_hits", plan.runs && plan.light_rays > 0.0f, "rays look for lamps near their ends"},
         {"indirect/cache_rays", fills_cache, "some paths go on, for the cache"},
         {"indirect/cache_hits", fills_cache, "and meet one surface more"},
         {"indirect/cache_vertices", fills_cache, "which is lit by light samples and by the cache"},
@@ -116,6 +116,8 @@ IndirectPlan plan_indirect(const IndirectSettings& settings) {
     plan.step_px = 1 << int(settings.resolution);
     plan.bounces = settings.bounces;
     plan.candidate_count = settings.candidates;
+    plan.lights = settings.lights;
+    plan.light_rays = float(settings.light_rays);
     plan.sampling = settings.sampling;
     plan.noise = settings.noise;
     plan.cache = settings.cache;
@@ -159,7 +161,8 @@ FramePlan make_plan(const FeatureSurvey& survey, const RenderSettings& settings)
     }
     plan.composite.light_alone =
         view == DebugView::VISIBILITY || view == DebugView::SAMPLES || plan.composite.indirect_alone;
-    plan.passes = list_passes(plan.direct);
+    plan.passes = {{"lights/tree", plan.has_light_tree(), "lights are drawn by the tree"}};
+    for (PlannedPass& pass : list_passes(plan.direct)) plan.passes.push_back(std::move(pass));
     for (PlannedPass& pass : list_passes(plan.indirect)) plan.passes.push_back(std::move(pass));
     for (PlannedPass& pass : list_passes(plan.denoise)) plan.passes.push_back(std::move(pass));
     return plan;

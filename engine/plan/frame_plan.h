@@ -60,6 +60,8 @@ struct IndirectPlan {
     int step_px = 1;             // > 1: it works on a coarse picture of one pixel in step x step
     int bounces = 1;
     int candidate_count = 1;
+    PathLights lights = PathLights::POWER;
+    float light_rays = 0.0f;
     IndirectSampling sampling = IndirectSampling::BRDF;
     NoiseKind noise = NoiseKind::WHITE;
     IndirectCache cache = IndirectCache::OFF;
@@ -101,6 +103,10 @@ struct FramePlan {
     DenoisePlan denoise;
     CompositeVariant composite;
     std::vector<PlannedPass> passes;  // those that not every frame runs
+
+    bool has_light_tree() const {
+        return direct.light_tree || (indirect.runs && indirect.lights == PathLights::TREE);
+    }
 };
 
 DirectPlan plan_direct(const DirectSettings& settings);

@@ -164,15 +164,24 @@ Defines PathVerticesVariant::defines() const {
     if (is_last) result.emplace_back("TARN_LAST_VERTEX");
     if (cache == IndirectCache::SCREEN) result.emplace_back("TARN_CACHE_SCREEN");
     if (cache == IndirectCache::WORLD) result.emplace_back("TARN_CACHE_WORLD");
+    if (lights == PathLights::TREE) result.emplace_back("TARN_SELECT_TREE");
     return result;
+}
+
+Defines CacheVerticesVariant::defines() const {
+    if (lights == PathLights::TREE) return {"TARN_SELECT_TREE"};
+    return {};
 }
 
 std::vector<PathVerticesVariant> PathVerticesVariant::all() {
     std::vector<PathVerticesVariant> result;
     for (const bool is_first : {true, false}) {
-        result.push_back({is_first, false});
-        for (const IndirectCache cache : {IndirectCache::OFF, IndirectCache::SCREEN, IndirectCache::WORLD})
-            result.push_back({is_first, true, cache});
+        for (const PathLights lights : {PathLights::POWER, PathLights::TREE}) {
+            result.push_back({is_first, false, IndirectCache::OFF, lights});
+            for (const IndirectCache cache :
+                 {IndirectCache::OFF, IndirectCache::SCREEN, IndirectCache::WORLD})
+                result.push_back({is_first, true, cache, lights});
+        }
     }
     return result;
 }
@@ -180,6 +189,8 @@ std::vector<PathVerticesVariant> PathVerticesVariant::all() {
 Defines PathSamplesVariant::defines() const {
     Defines result = define_of(sampling);
     if (shades) result.emplace_back("TARN_SHADE");
+    if (light_rays) result.emplace_back("TARN_LIGHT_RAYS");
+    if (light_rays && lights == PathLights::TREE) result.emplace_back("TARN_SELECT_TREE");
     return result;
 }
 
@@ -187,7 +198,11 @@ std::vector<PathSamplesVariant> PathSamplesVariant::all() {
     std::vector<PathSamplesVariant> result;
     for (const IndirectSampling sampling :
          {IndirectSampling::UNIFORM, IndirectSampling::COSINE, IndirectSampling::BRDF}) {
-        for (const bool shades : {false, true}) result.push_back({sampling, shades});
+        for (const bool shades : {false, true}) {
+            result.push_back({sampling, shades});
+            for (const PathLights lights : {PathLights::POWER, PathLights::TREE})
+                result.push_back({sampling, shades, lights, true});
+        }
     }
     return result;
 }

@@ -129,6 +129,7 @@ struct PathVerticesVariant {
     bool is_first = true;
     bool is_last = true;
     IndirectCache cache = IndirectCache::OFF;  // asked for what lies beyond the last surface
+    PathLights lights = PathLights::POWER;
     Defines defines() const;
     static std::vector<PathVerticesVariant> all();
 };
@@ -137,8 +138,12 @@ struct PathVerticesVariant {
 struct CacheRaysVariant : PlainVariant<CacheRaysVariant> {
     static constexpr const char* PATH = "indirect/cache_rays";
 };
-struct CacheVerticesVariant : PlainVariant<CacheVerticesVariant> {
+struct CacheVerticesVariant {
     static constexpr const char* PATH = "indirect/cache_vertices";
+    static constexpr bool IS_OF_SCENE = true;
+    PathLights lights = PathLights::POWER;
+    Defines defines() const;
+    static std::vector<CacheVerticesVariant> all() { return {{PathLights::POWER}, {PathLights::TREE}}; }
 };
 struct CacheUpdateVariant : PlainVariant<CacheUpdateVariant> {
     static constexpr const char* PATH = "indirect/cache_update";
@@ -152,6 +157,8 @@ struct PathSamplesVariant {
     static constexpr bool IS_OF_SCENE = true;
     IndirectSampling sampling = IndirectSampling::BRDF;
     bool shades = false;  // writes the light of the path instead of a sample
+    PathLights lights = PathLights::POWER;
+    bool light_rays = false;
     Defines defines() const;
     static std::vector<PathSamplesVariant> all();
 };

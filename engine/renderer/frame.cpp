@@ -98,7 +98,7 @@ ReflectedLight Renderer::light_directly(const FrameContext& frame, const GBuffer
     history_.direct.resize(plan.targets.size());
 
     CandidateSources sources;
-    if (plan.light_tree) sources.tree = gpu_light_tree_.rows();
+    sources.tree = find_light_tree(plan.light_tree);
     if (plan.light_tiles) sources.tiles = draw_light_tiles(frame);
 
     ReflectedLight light;
@@ -150,10 +150,12 @@ ReflectedLight Renderer::light_by_paths(const FrameContext& frame, const GBuffer
     const SampleSlot slot{0, 0, plan.targets[0], {frame.frame, frame.seed, RAY_SHADOW}};
     const PathCache cache = find_path_cache(frame, gbuffer, find_previous(frame, history_.indirect_light),
                                             find_previous(frame, history_.cache_cells));
-    const Paths paths = trace_paths(frame, gbuffer, slot, find_blue_noise(), cache);
+    const PathSources sources{find_blue_noise(), find_light_tree(plan.lights == PathLights::TREE), cache};
+    const Paths paths = trace_paths(frame, gbuffer, slot, sources);
     if (plan.cache == IndirectCache::WORLD) {
         history_.cache_cells.keep(
-            frame.frame, update_cells(frame, slot, paths.states, cache.cells, estimate_irradiance(world_)));
+            frame.frame, update_cells(frame, slot, paths.states,
+                                      {cache.cells, sources.light_tree, estimate_irradiance(world_)}));
     }
     const ReflectedLight light = finish_paths(frame, gbuffer, slot, paths);
     if (plan.cache == IndirectCache::SCREEN) history_.indirect_light.keep(frame.frame, light.diffuse);

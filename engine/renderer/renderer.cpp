@@ -126,7 +126,7 @@ void Renderer::upload_frame_blocks(const FrameInput& input) {
 FrameOutput Renderer::render(const FrameInput& input) {
     plan_ = make_plan(survey_, input.settings);
     recorder_.begin();
-    if (plan_.direct.light_tree) fit_light_tree();  // before the frame block, which counts its nodes
+    if (plan_.has_light_tree()) fit_light_tree();  // before the frame block, which counts its nodes
     upload_frame_blocks(input);
     gpu_scene_.bind(recorder_);
 

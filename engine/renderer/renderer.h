@@ -116,6 +116,9 @@ class Renderer {
                  const GBuffer& gbuffer);
     void fit_light_tree();
     const RowBuffer* find_blue_noise();
+    const RowBuffer* find_light_tree(bool is_drawn_from) const {
+        return is_drawn_from ? gpu_light_tree_.rows() : nullptr;
+    }
     FrameBlock make_frame_block(const FrameInput& input) const;
     void upload_frame_blocks(const FrameInput& input);
     bool has_moved(const CameraRecord& camera) const;

@@ -20,6 +20,10 @@ enum class NoiseKind { WHITE, BLUE };
 // Of the picture's pixels, along each axis.
 enum class IndirectResolution { FULL, HALF, QUARTER };
 
+// How light candidates at the surfaces of a path find their lamps: by power, or by a walk down the light
+// tree.
+enum class PathLights { POWER, TREE };
+
 // Where the light beyond the last surface of a path comes from.
 enum class IndirectCache {
     OFF,     // from nowhere
@@ -38,6 +42,8 @@ struct IndirectSettings {
     IndirectResolution resolution = IndirectResolution::FULL;
     int bounces = 1;     // surfaces that light meets before the one that is seen
     int candidates = 4;  // light candidates at each of them
+    PathLights lights = PathLights::POWER;
+    double light_rays = 0.25;  // of paths, those whose last surface sends a ray that looks for lamps
     IndirectCache cache = IndirectCache::OFF;
     int validation = 4;  // frames after which kept samples are asked again for their lamps; 0: never
     IndirectTarget target = IndirectTarget::BRDF;

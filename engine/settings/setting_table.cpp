@@ -181,6 +181,14 @@ void add_indirect_rows(std::vector<Setting>& table) {
             &S::noise, {"white", "blue"})
         .number("indirect-candidates", "", "Light candidates at each surface that a path meets",
                 &S::candidates, 1, 64)
+        .choose("indirect-light-selection",
+                "How these candidates find their lamps: by power, or by a walk down the light tree for the "
+                "surface at hand",
+                &S::lights, {"power", "tree"})
+        .number("indirect-light-rays", "",
+                "Of paths, the share whose last surface sends a ray that looks for lamps: what it may meet, "
+                "candidates leave to it, so that none is worth very much",
+                &S::light_rays, 0, 1)
         .choose(
             "indirect-cache",
             "Light of all further bounces, where paths end: none, what the last frame saw there, or a grid "

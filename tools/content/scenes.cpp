@@ -14,6 +14,7 @@ struct Entry {
 constexpr Entry ENTRIES[] = {
     {"lantern_court", build_lantern_court},
     {"cornell", build_cornell},
+    {"corner", build_corner},
     {"furnace", build_furnace},
     {"furnace_ggx", build_furnace_ggx},
     {"point_over_plane", build_point_over_plane},

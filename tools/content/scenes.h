@@ -25,6 +25,7 @@ std::string generate_scene(const std::string& name, const SceneOptions& options)
 
 void build_lantern_court(GltfWriter& writer, const SceneOptions& options);
 void build_cornell(GltfWriter& writer, const SceneOptions& options);
+void build_corner(GltfWriter& writer, const SceneOptions& options);
 void build_furnace(GltfWriter& writer, const SceneOptions& options);
 void build_furnace_ggx(GltfWriter& writer, const SceneOptions& options);
 void build_point_over_plane(GltfWriter& writer, const SceneOptions& options);

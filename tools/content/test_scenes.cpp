@@ -60,6 +60,28 @@ void build_cornell(GltfWriter& writer, const SceneOptions&) {
     writer.add_camera("main", {0, 0.2744f, 0.8f}, {0, 0.2744f, -0.2f}, 39.3);
 }
 
+// A room 4 m wide, 2.5 m high and 6 m deep, parted by a wall that leaves a gap on the right. The strong lamp
+// behind the wall faces away from the gap: none of what the camera sees is lit by it directly. The dim lamp
+// on the ceiling of the front part, the first of both, is there so that something stays when the other goes
+// out.
+void build_corner(GltfWriter& writer, const SceneOptions&) {
+    constexpr float X = 2.0f, Y = 2.5f, Z = 3.0f;
+    const int white = add_diffuse(writer, "white", glm::vec3(0.75f));
+    const int red = add_diffuse(writer, "red", {0.7f, 0.25f, 0.15f});
+    const int dim = add_emitter(writer, "dim lamp", glm::vec3(0.5f));
+    const int strong = add_emitter(writer, "strong lamp", {60.0f, 50.0f, 35.0f});
+    add_object(writer, "floor", make_quad({-X, 0, Z}, {2 * X, 0, 0}, {0, 0, -2 * Z}), white);
+    add_object(writer, "ceiling", make_quad({-X, Y, -Z}, {2 * X, 0, 0}, {0, 0, 2 * Z}), white);
+    add_object(writer, "back wall", make_quad({-X, 0, -Z}, {2 * X, 0, 0}, {0, Y, 0}), white);
+    add_object(writer, "front wall", make_quad({X, 0, Z}, {-2 * X, 0, 0}, {0, Y, 0}), white);
+    add_object(writer, "left wall", make_quad({-X, 0, Z}, {0, 0, -2 * Z}, {0, Y, 0}), red);
+    add_object(writer, "right wall", make_quad({X, 0, -Z}, {0, 0, 2 * Z}, {0, Y, 0}), white);
+    add_object(writer, "parting wall", make_box({-X, 0, -0.1f}, {0.6f, Y, 0}), white);
+    add_object(writer, "dim lamp", make_quad({-0.9f, Y - 0.01f, 1.2f}, {0.3f, 0, 0}, {0, 0, 0.3f}), dim);
+    add_object(writer, "strong lamp", make_quad({-0.8f, 0.8f, -1.3f}, {0, 0, -0.6f}, {0, 0.6f, 0}), strong);
+    writer.add_camera("main", {-1.2f, 1.4f, 2.8f}, {0.9f, 1.0f, -1.0f}, 55.0);
+}
+
 void build_furnace(GltfWriter& writer, const SceneOptions&) {
     add_object(writer, "sphere", make_sphere(1.0f, 192, 96), add_diffuse(writer, "white", glm::vec3(1.0f)));
     writer.add_camera("main", {0, 0, 4}, {0, 0, 0}, 40.0);

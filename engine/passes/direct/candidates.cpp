@@ -19,7 +19,7 @@ Samples choose_candidates(const FrameContext& frame, const GBuffer& gbuffer, con
     PassRecorder pass = frame.pass("direct/candidates");
     if (sources.tiles) pass.read(UNIT_PASS_A, sources.tiles);
     if (sources.brdf_hits) pass.read(UNIT_PASS_B, sources.brdf_hits);
-    if (sources.tree != nullptr) pass.read_table(UNIT_PASS_C, *sources.tree);
+    if (sources.tree != nullptr) pass.read_table(UNIT_PASS_E, *sources.tree);
     read_gbuffer(pass, gbuffer)
         .constants(constants)
         .write(0, fresh.reservoirs)

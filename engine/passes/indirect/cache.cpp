@@ -85,18 +85,19 @@ struct LitHits {
 };
 
 LitHits light_hits(const FrameContext& frame, const CachePaths& paths, const Rows& hits,
-                   const CacheCells& cells) {
+                   const CacheSources& sources) {
     const LitHits lit{
         take_rows(frame, "indirect/cache_samples", paths.count * CACHE_SAMPLE_ROWS, BufferUse::DEVICE),
         take_rows(frame, "indirect/cache_shadow_rays", paths.count * RAY_ROWS, BufferUse::SHARED)};
     PassRecorder pass = frame.pass("indirect/cache_vertices");
+    if (sources.light_tree != nullptr) pass.read_table(UNIT_PASS_E, *sources.light_tree);
     pass.constants(paths.constants)
         .read(UNIT_PASS_A, hits)
-        .read_table(UNIT_PASS_B, *cells)
+        .read_table(UNIT_PASS_B, *sources.cells)
         .write(0, lit.samples)
         .write(1, lit.shadow_rays)
         .count(BLOCK_COUNTERS, frame.counters)
-        .dispatch(frame.compute(CacheVerticesVariant{}), paths.size_px);
+        .dispatch(frame.compute(CacheVerticesVariant{frame.plan.indirect.lights}), paths.size_px);
     return lit;
 }
 
@@ -175,14 +176,15 @@ double estimate_irradiance(const World& world) {
 }
 
 CacheCells update_cells(const FrameContext& frame, const SampleSlot& slot, const Rows& path_states,
-                        const CacheCells& cells, double typical_irradiance) {
-    const CachePaths paths = plan_paths(frame, slot, typical_irradiance);
+                        const CacheSources& sources) {
+    const CacheCells& cells = sources.cells;
+    const CachePaths paths = plan_paths(frame, slot, sources.typical_irradiance);
     const Rows sums = take_empty_sums(frame);
     const Rows rays = write_rays(frame, paths, path_states, cells, sums);
     CoverageKey key = slot.shadow_key;
     key.ray = RAY_BOUNCE + std::uint32_t(frame.plan.indirect.bounces);
     const Rows hits = trace_closest_hits(frame, "indirect/cache_hits", rays, paths.count, key);
-    const LitHits lit = light_hits(frame, paths, hits, cells);
+    const LitHits lit = light_hits(frame, paths, hits, sources);
     const Answers answers =
         trace_visibility(frame, "indirect/cache_shadows", lit.shadow_rays, paths.count, slot.shadow_key);
     add_samples(frame, paths, path_states, cells, lit.samples, answers, sums);

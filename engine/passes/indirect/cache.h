@@ -37,9 +37,15 @@ void read_path_cache(PassRecorder& pass, const PathCache& cache);
 // W/m^2: the light of all lamps and the sky, spread over the scene's bounds. Sums in the cache count it.
 double estimate_irradiance(const World& world);
 
+struct CacheSources {
+    CacheCells cells;
+    const RowBuffer* light_tree = nullptr;  // null: lamps are drawn by power
+    double typical_irradiance = 0.0;        // W/m^2
+};
+
 // Lets some of the pixels' paths, whose states are `path_states`, go on by one surface and add what they find
 // to their cells. Returns the next frame's cells.
 CacheCells update_cells(const FrameContext& frame, const SampleSlot& slot, const Rows& path_states,
-                        const CacheCells& cells, double typical_irradiance);
+                        const CacheSources& sources);
 
 }  // namespace tarn

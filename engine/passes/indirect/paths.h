@@ -12,13 +12,21 @@ namespace tarn {
 struct Paths {
     Rows states;
     Rows answers;
+    Rows light_hits;                        // of rays from their ends; null: none were sent
+    const RowBuffer* light_tree = nullptr;  // from which their lamps were drawn; null: by power
 };
 
-// `blue_noise`: the mask, where the plan asks for it. Traces `frame.plan.indirect.bounces` surfaces far. Rays
-// of the first leg meet partly covered surfaces by `slot.shadow_key`, as the rays that later test the samples
-// do: what one has seen the other sees. What lies beyond the last surface comes out of `cache`.
+// What paths draw from; null where the plan does not ask for it.
+struct PathSources {
+    const RowBuffer* blue_noise = nullptr;  // the mask
+    const RowBuffer* light_tree = nullptr;
+    PathCache cache;  // of what lies beyond the last surface
+};
+
+// Traces `frame.plan.indirect.bounces` surfaces far. Rays of the first leg meet partly covered surfaces by
+// `slot.shadow_key`, as the rays that later test the samples do: what one has seen the other sees.
 Paths trace_paths(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,
-                  const RowBuffer* blue_noise, const PathCache& cache);
+                  const PathSources& sources);
 
 // A fresh sample of each path.
 Samples finish_samples(const FrameContext& frame, const GBuffer& gbuffer, const SampleSlot& slot,

@@ -7,8 +7,9 @@
 //   2  material
 //   3  incident light (by next-event estimation)      0
 //   4  light from the further direction so far        1: it is irradiance of the base, from everywhere
-//   5  throughput from the place on                   0
+//   5  throughput from the place on                   shading normal of the last surface
 //   6  light that waits for its shadow ray            0
+//   7  position of the last surface                   density of the direction in which the path left it
 #include "shared/interface/path_state.h"
 #include "shared/math/path_sample.h"
 
@@ -19,6 +20,9 @@ struct PathState {
     bool further_is_irradiance;  // out of a cache, W/m^2, and from no direction
     vec3 throughput;             // BRDF * cosine / density along the way; first: 1 / density
     vec3 waiting;                // throughput included
+    vec3 position;               // of the surface that the path left last
+    vec3 normal;                 // its shading normal
+    float pdf;                   // of the direction, solid angle; 0: no ray was sent
 };
 
 PathState load_path_state(usamplerBuffer rows, uint pixel) {
@@ -31,8 +35,13 @@ PathState load_path_state(usamplerBuffer rows, uint pixel) {
     uvec4 further = texelFetch(rows, row + 4);
     s.further = row_xyz(further);
     s.further_is_irradiance = further.w != 0u;
-    s.throughput = row_xyz(texelFetch(rows, row + 5));
+    uvec4 throughput = texelFetch(rows, row + 5);
+    s.throughput = row_xyz(throughput);
+    s.normal = unpack_direction(throughput.w);
     s.waiting = row_xyz(texelFetch(rows, row + 6));
+    uvec4 last = texelFetch(rows, row + 7);
+    s.position = row_xyz(last);
+    s.pdf = uintBitsToFloat(last.w);
     return s;
 }
 

@@ -24,6 +24,7 @@
 
 #ifdef TARN_BRDF_CANDIDATE
 #include "lib/light_hits.glsl"
+#include "lib/light_ray_density.glsl"
 
 layout(binding = UNIT_PASS_B) uniform usamplerBuffer brdf_hits;
 #endif
@@ -60,28 +61,12 @@ struct Stream {
     LiveReservoir live;
 };
 
-// Share of rays that meet the light at `drawn`, a sample on a light of the table.
-float sample_coverage(LightSample drawn) {
-    float coverage = 1.0f;
-#ifndef TARN_PLANT_FORGET_COVERAGE
-    // A loop that runs at most once, as in load_triangle_radiance.
-    Light light = load_light(drawn.light);
-    uint covered = SCENE_HAS_COVERED_LIGHTS ? light.flags & LIGHT_COVERED : 0u;
-    for (; covered != 0u; covered = 0u) coverage = load_light_coverage(light, drawn.uv);
-#endif
-    return coverage;
-}
-
-// Density of a sample under the BRDF, in the measure of its light; 0 for lights that no ray can meet. Of the rays that
-// arrive there only the covered share ends on the light.
+// Density of a sample under the BRDF, in the measure of its light.
 float brdf_pdf(Stream s, LightSample drawn, IncidentLight incident) {
 #ifdef TARN_BRDF_CANDIDATE
     float pdf = pdf_brdf_solid_angle(s.receiver.point.material, s.receiver.brdf,
                                      to_local(s.receiver.frame, incident.direction));
-    if (incident.distance >= RAY_INFINITY) return drawn.light == LIGHT_ENVIRONMENT ? pdf : 0.0f;
-    pdf *= sample_coverage(drawn);
-    return pdf * max(dot(incident.light_normal, -incident.direction), 0.0f) /
-           (incident.distance * incident.distance);
+    return ray_density_on_light(pdf, drawn, incident);
 #else
     return 0.0f;
 #endif

@@ -28,7 +28,7 @@ struct Sent {
 
 Sent send_back(HitRecord hit, Surface surface, RandomKey key, uint index) {
     Receiver r = make_receiver(surface.point, -hit.direction);
-    NextEvent light = find_next_event(r, key, DIMENSION_CACHE + 8u);
+    NextEvent light = find_next_event(r, key, DIMENSION_CACHE + 8u, 0.0f);
     Sent sent = Sent(vec3(0.0f), vec3(0.0f), inactive_ray());
     vec3 albedo = r.point.material.diffuse_albedo;
 #ifdef TARN_PLANT_ALBEDO_TWICE

@@ -1,7 +1,8 @@
-// Finishes the pixels' paths. Each becomes a sample in a reservoir, ready for reuse; of the two directions from which
-// light reaches its place one is chosen, in proportion to what it sends to the pixel.
+// Finishes the pixels' paths. Each becomes a sample in a reservoir, ready for reuse; of the directions from which light
+// reaches its place one is chosen, in proportion to what it sends to the pixel.
 //
-// TARN_SHADE: no reservoir, the light of the path itself, from both directions.
+// TARN_LIGHT_RAYS: the rays in which paths ended may have met lamps.
+// TARN_SHADE: no reservoir, the light of the path itself, from all directions.
 #include "shared/interface/constants/indirect.h"
 #include "lib/scene_buffers.glsl"
 #include "lib/frame.glsl"
@@ -11,12 +12,19 @@
 #include "lib/indirect/directions.glsl"
 #include "lib/indirect/path_samples.glsl"
 #include "lib/indirect/path_state.glsl"
+#ifdef TARN_LIGHT_RAYS
+#include "lib/indirect/next_event.glsl"
+#include "lib/indirect/met_light.glsl"
+#endif
 #include "lib/reuse/reservoirs.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = UNIT_PASS_A) uniform usamplerBuffer in_path_states;
 layout(binding = UNIT_PASS_B) uniform samplerBuffer answers;  // of the last vertex
+#ifdef TARN_LIGHT_RAYS
+layout(binding = UNIT_PASS_C) uniform usamplerBuffer light_hits;  // of rays from there
+#endif
 #ifdef TARN_SHADE
 layout(binding = 0, rgba32f) writeonly uniform image2D diffuse_image;
 layout(binding = 1, rgba32f) writeonly uniform image2D specular_image;
@@ -24,12 +32,21 @@ layout(binding = 1, rgba32f) writeonly uniform image2D specular_image;
 layout(std430, binding = 0) writeonly buffer Reservoirs { uvec4 out_reservoirs[]; };
 #endif
 
-// The same place, lit from where the path went on.
+// What lights a path's place: a lamp by next-event estimation, what lies further on, and a lamp that the last ray met.
+const int SOURCE_COUNT = 3;
+struct Sources {
+    PathSample by[SOURCE_COUNT];
+};
+
+PathSample lit_from(PathSample place, vec3 direction, vec3 incident, LightSample lamp) {
+    place.incident_direction = direction;
+    place.incident = incident;
+    place.light = lamp;
+    return place;
+}
+
 PathSample further_sample(PathState s) {
-    PathSample further = s.place;
-    further.incident_direction = s.further_direction;
-    further.incident = s.further;
-    further.light = no_light_sample();
+    PathSample further = lit_from(s.place, s.further_direction, s.further, no_light_sample());
     // Irradiance reaches the base alone: as from straight above a surface without a layer.
     if (s.further_is_irradiance) {
         further.incident_direction = further.shading_normal;
@@ -40,10 +57,25 @@ PathSample further_sample(PathState s) {
     return further;
 }
 
-PathState load_finished_path(uint pixel) {
+Sources load_finished_path(uint pixel) {
     PathState s = load_path_state(in_path_states, pixel);
     settle_waiting(s, texelFetch(answers, int(pixel)).x, bounce == 0u);
-    return s;
+    MetLight met = MetLight(no_light_sample(), vec3(0.0f));
+#ifdef TARN_LIGHT_RAYS
+    int row = int(pixel * HIT_ROWS);
+    HitRecord hit = unpack_hit(texelFetch(light_hits, row), texelFetch(light_hits, row + 1));
+    met = find_met_light(s, hit, ray_share);
+    // Beyond the place it is one part of what lies further on.
+    if (bounce > 0u) {
+        s.further += met.value;
+        met.value = vec3(0.0f);
+    }
+#endif
+    Sources sources;
+    sources.by[0] = s.place;
+    sources.by[1] = further_sample(s);
+    sources.by[2] = lit_from(s.place, s.further_direction, met.value, met.drawn);
+    return sources;
 }
 
 float path_pdf(Receiver r, IncidentLight light) {
@@ -57,10 +89,11 @@ void main() {
     BrdfValue light = no_reflection();
     Receiver r;
     if (load_receiver(pixel, r)) {
-        PathState s = load_finished_path(pixel_index(pixel));
-        PathPlace place = load_place_at(s.place, 0u);
-        IncidentLight arriving = place_light(s.place, place, r.point.position);
-        arriving.value += place_light(further_sample(s), place, r.point.position).value;
+        Sources sources = load_finished_path(pixel_index(pixel));
+        PathPlace place = load_place_at(sources.by[0], 0u);
+        IncidentLight arriving = place_light(sources.by[0], place, r.point.position);
+        for (int i = 1; i < SOURCE_COUNT; ++i)
+            arriving.value += place_light(sources.by[i], place, r.point.position).value;
         float pdf = path_pdf(r, arriving);
         if (pdf > 0.0f) light = scale_parts(reflect_at(r, arriving), vec3(1.0f / pdf));
     }
@@ -78,20 +111,26 @@ void store(uint pixel, SampleReservoir r) {
         out_reservoirs[row + RESERVOIR_ROWS + i] = pack_sample_row(r.chosen, i);
 }
 
-// One of the two directions, its light over the probability of the choice.
-PathSample choose_direction(PathState s, PathPlace place, Receiver r, float u) {
-    PathSample by_light = s.place;
-    PathSample further = further_sample(s);
-    float first = path_target(r, place_light(by_light, place, r.point.position));
-    float second = path_target(r, place_light(further, place, r.point.position));
-    float total = first + second;
-    if (!(total > 0.0f)) return by_light;
-    if (u * total < first) {
-        by_light.incident *= total / first;
-        return by_light;
+// One of them, its light over the probability of the choice.
+PathSample choose_source(Sources sources, PathPlace place, Receiver r, float u) {
+    float targets[SOURCE_COUNT];
+    float total = 0.0f;
+    for (int i = 0; i < SOURCE_COUNT; ++i) {
+        targets[i] = path_target(r, place_light(sources.by[i], place, r.point.position));
+        total += targets[i];
     }
-    further.incident *= total / second;
-    return further;
+    if (!(total > 0.0f)) return sources.by[0];
+    float rest = u * total;
+    PathSample chosen = sources.by[0];
+    float target = targets[0];
+    for (int i = 1; i < SOURCE_COUNT; ++i) {
+        rest -= targets[i - 1];
+        if (rest < 0.0f || targets[i] == 0.0f) continue;
+        chosen = sources.by[i];
+        target = targets[i];
+    }
+    chosen.incident *= ratio_or_zero(total, target);
+    return chosen;
 }
 
 void main() {
@@ -100,10 +139,10 @@ void main() {
     SampleReservoir result = empty_sample_reservoir();
     Receiver r;
     if (load_receiver(pixel, r)) {
-        PathState s = load_finished_path(pixel_index(pixel));
-        PathPlace place = load_place_at(s.place, 0u);
+        Sources sources = load_finished_path(pixel_index(pixel));
+        PathPlace place = load_place_at(sources.by[0], 0u);
         PathSample chosen =
-            choose_direction(s, place, r, random4(pixel_key(pixel), DIMENSION_INDIRECT + 1u).x);
+            choose_source(sources, place, r, random4(pixel_key(pixel), DIMENSION_INDIRECT + 1u).x);
         IncidentLight light = place_light(chosen, place, r.point.position);
         float target = path_target(r, light);
         LiveReservoir live = empty_live_reservoir();

@@ -3,7 +3,8 @@
 //
 // TARN_FIRST_VERTEX: the surface becomes the place of the pixel's sample. TARN_LAST_VERTEX: the path ends here.
 // TARN_CACHE_SCREEN, TARN_CACHE_WORLD: what lies beyond the path's end comes out of a cache (lib/indirect/cached_light.glsl).
-// Emission counts nowhere: light sampling finds all of it, and what a pixel sees directly is direct light's.
+// Lamps that the path's ray meets count as far as light sampling leaves them to it; what a pixel sees directly is direct
+// light's.
 #include "shared/interface/constants/indirect.h"
 #include "lib/scene_buffers.glsl"
 #include "lib/frame.glsl"
@@ -13,6 +14,7 @@
 #include "lib/indirect/directions.glsl"
 #include "lib/indirect/next_event.glsl"
 #include "lib/indirect/path_state.glsl"
+#include "lib/indirect/met_light.glsl"
 #ifdef TARN_CACHE_WORLD
 #include "lib/indirect/world_cache.glsl"
 #endif
@@ -39,8 +41,9 @@ void store_state(uint pixel, PathState s) {
     out_states[row + 2u] = material;
     out_states[row + 3u] = light;
     out_states[row + 4u] = pack_row(s.further, s.further_is_irradiance ? 1u : 0u);
-    out_states[row + 5u] = pack_row(s.throughput, 0u);
+    out_states[row + 5u] = pack_row(s.throughput, pack_direction(s.normal));
     out_states[row + 6u] = pack_row(s.waiting, 0u);
+    out_states[row + 7u] = pack_row(s.position, floatBitsToUint(s.pdf));
 }
 
 void store_shadow_ray(uint pixel, RayRecord ray) {
@@ -51,15 +54,14 @@ void store_shadow_ray(uint pixel, RayRecord ray) {
 }
 
 void store_next_ray(uint pixel, RayRecord ray) {
-#ifndef TARN_LAST_VERTEX
+    if (ray_share == 0.0f) return;
     uvec4 row0, row1;
     pack_ray(ray, row0, row1);
     out_rays[pixel * RAY_ROWS] = row0;
     out_rays[pixel * RAY_ROWS + 1u] = row1;
-#endif
 }
 
-PathState start_state(uint pixel) {
+PathState start_state(uint pixel, HitRecord hit) {
     PathState s;
 #ifdef TARN_FIRST_VERTEX
     s.place = no_path_sample();
@@ -70,8 +72,12 @@ PathState start_state(uint pixel) {
 #else
     s = load_path_state(in_path_states, pixel);
     settle_waiting(s, texelFetch(answers, int(pixel)).x, bounce == 1u);
+    s.further += find_met_light(s, hit, 1.0f).value;
 #endif
     s.waiting = vec3(0.0f);
+    s.position = vec3(0.0f);
+    s.normal = vec3(0.0f, 0.0f, 1.0f);
+    s.pdf = 0.0f;
     return s;
 }
 
@@ -91,14 +97,18 @@ void keep_place(inout PathState s, HitRecord hit, Receiver r, NextEvent light) {
     s.place.light = light.drawn;
 }
 
-// Where the path goes on; adds that step to the throughput.
+// Where the path goes on; adds that step to the throughput. Of paths that end here a share looks for lamps.
 RayRecord continue_path(inout PathState s, Receiver r, RandomKey key, uint pixel) {
-    vec3 local = sample_brdf(r.point.material, r.brdf,
-                             random4(key, DIMENSION_INDIRECT + (bounce + 1u) * DIMENSIONS_PER_BOUNCE).xyz);
+    vec4 u = random4(key, DIMENSION_INDIRECT + (bounce + 1u) * DIMENSIONS_PER_BOUNCE);
+    vec3 local = sample_brdf(r.point.material, r.brdf, u.xyz);
     float pdf = pdf_brdf_solid_angle(r.point.material, r.brdf, local);
     vec3 direction = from_local(r.frame, local);
     RayRecord ray = leave_surface(r.point, direction, pdf, pixel);
+    if (u.w >= ray_share) ray.max_t = -1.0f;
     if (ray.max_t < 0.0f) return ray;
+    s.position = r.point.position;
+    s.normal = r.point.shading_normal;
+    s.pdf = pdf;
 #ifdef TARN_FIRST_VERTEX
     s.further_direction = direction;
     s.throughput = vec3(1.0f / pdf);
@@ -141,7 +151,7 @@ void main() {
     uint pixel = pixel_index(at);
     int row = int(pixel * HIT_ROWS);
     HitRecord hit = unpack_hit(texelFetch(hits, row), texelFetch(hits, row + 1));
-    PathState s = start_state(pixel);
+    PathState s = start_state(pixel, hit);
     RayRecord shadow_ray = inactive_ray();
     RayRecord next_ray = inactive_ray();
     if (hit.instance != INVALID_INDEX) {
@@ -150,7 +160,7 @@ void main() {
             Receiver r = make_receiver(surface.point, -hit.direction);
             RandomKey key = pixel_key(at);
             NextEvent light =
-                find_next_event(r, key, DIMENSION_INDIRECT + bounce * DIMENSIONS_PER_BOUNCE + 8u);
+                find_next_event(r, key, DIMENSION_INDIRECT + bounce * DIMENSIONS_PER_BOUNCE + 8u, ray_share);
             if (light.contribution_weight > 0.0f)
                 shadow_ray = make_shadow_ray(r.point, light.incident, load_light_error(light.drawn), pixel);
 #ifdef TARN_FIRST_VERTEX

@@ -102,3 +102,11 @@ FN LightCandidate draw_light_by_tree(uvec4 bits, vec3 position, vec3 normal) {
     DiscreteSample light = choose_light_by_tree(bits, position, normal);
     return draw_on_light(light.index, light.pmf, vec2(float_from_bits(bits.z), float_from_bits(bits.w)));
 }
+
+// The same for a receiver at `position`: near triangles evenly over their solid angle (draw_on_light_near).
+FN LightCandidate draw_light_near_by_tree(uvec4 bits, vec3 position, vec3 normal) {
+    if (get_light_tree_node_count() == 0u) return no_candidate();
+    DiscreteSample light = choose_light_by_tree(bits, position, normal);
+    return draw_on_light_near(light.index, light.pmf, vec2(float_from_bits(bits.z), float_from_bits(bits.w)),
+                              position);
+}

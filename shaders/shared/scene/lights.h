@@ -150,17 +150,34 @@ FN LightCandidate draw_on_light(uint index, float pmf, vec2 u) {
     return c;
 }
 
-// The same for a light that sends its light to `point`: a triangle that is near is drawn evenly over the
-// solid angle under which the point sees it. The density is still that by area.
+// Whether a triangle is so near to `point` that it is drawn over its solid angle.
+FN bool is_light_near(Light light, vec3 point) {
+#ifdef TARN_PLANT_DRAW_NEAR_LIGHTS_BY_AREA
+    return false;
+#else
+    vec3 to_centre = light.position - point + (light.edge1 + light.edge2) * (1.0f / 3.0f);
+    float size2 = max(dot(light.edge1, light.edge1), dot(light.edge2, light.edge2));
+    return is_triangle(light) && size2 > 0.25f * dot(to_centre, to_centre);
+#endif
+}
+
+// Density by area of a place that is drawn evenly over `solid_angle`; `to_drawn` leads there from the point.
+FN float near_light_pdf(Light light, vec3 to_drawn, float solid_angle, float pmf) {
+    float distance2 = dot(to_drawn, to_drawn);
+    // |cosine| / distance^2 is that of solid angle over area.
+    float projected = abs(dot(cross(light.edge1, light.edge2), to_drawn));
+    float area2 = 2.0f * triangle_area(light);
+    return ratio_or_zero(pmf * projected, area2 * distance2 * sqrt(distance2) * solid_angle);
+}
+
+// The same as draw_on_light for a light that sends its light to `point`: a triangle that is near is drawn
+// evenly over the solid angle under which the point sees it. The density is still that by area.
 FN LightCandidate draw_on_light_near(uint index, float pmf, vec2 u, vec3 point) {
     LightCandidate c = draw_on_light(index, pmf, u);
-#ifndef TARN_PLANT_DRAW_NEAR_LIGHTS_BY_AREA
     Light light = load_light(index);
     vec3 to_light = light.position - point;
-    vec3 to_centre = to_light + (light.edge1 + light.edge2) * (1.0f / 3.0f);
-    float size2 = max(dot(light.edge1, light.edge1), dot(light.edge2, light.edge2));
     // A loop that runs at most once: a software GPU skips it where no lane enters.
-    uint near = is_triangle(light) && size2 > 0.25f * dot(to_centre, to_centre) ? 1u : 0u;
+    uint near = is_light_near(light, point) ? 1u : 0u;
     for (; near != 0u; near = 0u) {
         SphericalTriangle seen =
             make_spherical_triangle(to_light, to_light + light.edge1, to_light + light.edge2);
@@ -168,15 +185,27 @@ FN LightCandidate draw_on_light_near(uint index, float pmf, vec2 u, vec3 point) 
         if (seen.solid_angle < LEAST_SOLID_ANGLE) continue;
         vec2 uv = find_barycentrics(sample_spherical_triangle(seen, u), to_light, light.edge1, light.edge2);
         vec3 to_drawn = to_light + light.edge1 * uv.x + light.edge2 * uv.y;
-        float distance2 = dot(to_drawn, to_drawn);
-        // |cosine| / distance^2 is that of solid angle over area.
-        float projected = abs(dot(cross(light.edge1, light.edge2), to_drawn));
-        float area2 = 2.0f * triangle_area(light);
         c.drawn.uv = uv;
-        c.pdf = ratio_or_zero(pmf * projected, area2 * distance2 * sqrt(distance2) * seen.solid_angle);
+        c.pdf = near_light_pdf(light, to_drawn, seen.solid_angle, pmf);
     }
-#endif
     return c;
+}
+
+// Density with which draw_on_light_near draws `drawn`, a sample on a triangle that is chosen with probability
+// `pmf`.
+FN float pdf_on_light_near(LightSample drawn, float pmf, vec3 point) {
+    Light light = load_light(drawn.light);
+    float pdf = ratio_or_zero(pmf, triangle_area(light));
+    vec3 to_light = light.position - point;
+    uint near = is_light_near(light, point) ? 1u : 0u;
+    for (; near != 0u; near = 0u) {
+        SphericalTriangle seen =
+            make_spherical_triangle(to_light, to_light + light.edge1, to_light + light.edge2);
+        if (seen.solid_angle < LEAST_SOLID_ANGLE) continue;
+        vec3 to_drawn = to_light + light.edge1 * drawn.uv.x + light.edge2 * drawn.uv.y;
+        pdf = near_light_pdf(light, to_drawn, seen.solid_angle, pmf);
+    }
+    return pdf;
 }
 
 // A direction of the sky, by importance.

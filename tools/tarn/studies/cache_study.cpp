@@ -1,15 +1,12 @@
 // tarn study cache: what light of many bounces costs, and what of it arrives: paths of several bounces beside
-// paths of one whose further light comes out of a cache. Direct light is taken out of all pictures: it is the
-// same, bit by bit, with and without indirect light.
+// paths of one whose further light comes out of a cache.
 #include <algorithm>
 #include <limits>
 
 #include "core/error.h"
 #include "core/statistics.h"
-#include "find_truth.h"
-#include "interrupt.h"
 #include "metrics/image_error.h"
-#include "studies/study.h"
+#include "studies/indirect_runs.h"
 
 namespace tarn {
 namespace {
@@ -41,65 +38,6 @@ constexpr CacheVariant VARIANTS[] = {
     {IndirectCache::WORLD, 1, "1, world"},
 };
 
-Image subtract(Image a, const Image& b) {
-    for (std::size_t i = 0; i < a.values.size(); ++i) a.values[i] -= b.values[i];
-    return a;
-}
-
-double mean_of(const Image& image) {
-    return mean_value({image, image}, 0);
-}
-
-struct Run {
-    std::vector<Image> frames;                                     // after the warm-up
-    double indirect_ms = std::numeric_limits<double>::infinity();  // least of a frame: others only add
-};
-
-Run render_run(RenderSession& session, const CacheStudy& study, const RenderSettings& settings,
-               std::uint32_t seed) {
-    Run run;
-    FrameInput input;
-    input.camera = choose_camera(study.options.scene, session.loaded().scene, session.loaded().world);
-    input.settings = settings;
-    input.seed = seed;
-    session.renderer().reset_history();
-    for (int i = 0; i < study.warm_up + study.frames; ++i) {
-        if (interrupt_flag()) throw Error("interrupted");
-        input.frame = std::uint32_t(i);
-        const FrameOutput output = session.renderer().render(input);
-        if (i < study.warm_up) continue;
-        double ms = 0.0;
-        for (const PassTiming& pass : output.timings.passes) {
-            if (pass.name.starts_with("indirect/")) ms += pass.ms;
-        }
-        run.indirect_ms = std::min(run.indirect_ms, ms);
-        run.frames.push_back(session.renderer().read_radiance(output.radiance));
-    }
-    return run;
-}
-
-// Light of `bounces` surfaces before the one that is seen, without direct light.
-class IndirectReferences {
-  public:
-    IndirectReferences(RenderSession& session, const CacheStudy& study)
-        : session_(session), study_(study), direct_(render(1)) {}
-
-    Image find(int bounces) { return subtract(render(bounces + 1), direct_); }
-
-  private:
-    Image render(int bounces) {
-        const SceneOptions& scene = study_.options.scene;
-        const CameraRecord camera = choose_camera(scene, session_.loaded().scene, session_.loaded().world);
-        return find_reference(
-                   session_, truth_settings(scene.width, scene.height, camera, study_.reference_spp, bounces))
-            .radiance;
-    }
-
-    RenderSession& session_;
-    const CacheStudy& study_;
-    Image direct_;
-};
-
 struct Measured {
     RunningMoments energy;  // mean radiance of indirect light
     RunningMoments rel_mse;
@@ -111,15 +49,13 @@ Measured measure(RenderSession& session, const CacheStudy& study, const CacheVar
     RenderSettings with = study.options.settings;
     with.indirect.cache = variant.cache;
     with.indirect.bounces = variant.bounces;
-    RenderSettings without = with;
-    without.indirect.mode = IndirectMode::OFF;
+    const SceneOptions& scene = study.options.scene;
+    StudySequence sequence{with, choose_camera(scene, session.loaded().scene, session.loaded().world),
+                           scene.seed, study.warm_up, study.frames};
     Measured measured;
-    for (int k = 0; k < study.seeds; ++k) {
-        const std::uint32_t seed = study.options.scene.seed + std::uint32_t(k);
-        const Run direct = render_run(session, study, without, seed);
-        const Run run = render_run(session, study, with, seed);
-        for (std::size_t i = 0; i < run.frames.size(); ++i) {
-            const Image indirect = subtract(run.frames[i], direct.frames[i]);
+    for (int k = 0; k < study.seeds; ++k, ++sequence.seed) {
+        const IndirectRun run = render_indirect_run(session.renderer(), sequence);
+        for (const Image& indirect : run.frames) {
             measured.energy.add(mean_of(indirect));
             measured.rel_mse.add(compute_image_errors(all, indirect).rel_mse);
         }
@@ -132,7 +68,7 @@ void run(const CacheStudy& study) {
     check_output_folder(study.options.json_file);
     if (!study.options.settings.indirect.runs()) throw Error("study cache: needs --indirect path or restir");
     RenderSession session(study.options);
-    IndirectReferences references(session, study);
+    IndirectReferences references(session, study.options.scene, study.reference_spp);
     const Image all = references.find(ALL_BOUNCES);
     const double all_energy = mean_of(all);
     Json rows = Json::array();

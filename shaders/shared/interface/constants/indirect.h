@@ -12,6 +12,7 @@ PASS_CONSTANTS(IndirectConstants) {
     uint bounce;             // 0: the first surface that the path meets
     uint candidate_count;    // light candidates of next-event estimation
     float cache_cell_share;  // as in constants/cache.h
+    float ray_share;         // of the surface's BRDF rays, those that are followed
 };
 
 SHARED_END
