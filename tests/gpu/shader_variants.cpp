@@ -52,15 +52,18 @@ class ShaderVariants : public test::OnDebugContext<testing::TestWithParam<Shader
         if (is_graphics(pass)) return link(defines);  // two shaders, which must fit together
         const ShaderSource source =
             load_shader_source(get_shader_root(), "passes/" + pass + ".comp", defines);
-        check_shader(pass, {GL_COMPUTE_SHADER, source});
+        check_shader(describe(defines), {GL_COMPUTE_SHADER, source});
         expect_no_complaint(defines);
     }
 
     void expect_no_complaint(const Defines& defines) {
         const std::vector<std::string> complaints = take_debug_errors();
         if (complaints.empty()) return;
-        ADD_FAILURE() << fmt::format("{} {}: {}", GetParam().path, fmt::join(defines, " "),
-                                     complaints.front());
+        ADD_FAILURE() << describe(defines) << ": " << complaints.front();
+    }
+
+    static std::string describe(const Defines& defines) {
+        return fmt::format("{} [{}]", GetParam().path, fmt::join(defines, " "));
     }
 
     ProgramLibrary programs_;
