@@ -60,6 +60,10 @@ std::map<unsigned, std::size_t> read_block_sizes(GLuint program) {
 
 }  // namespace
 
+void check_shader(const std::string& program_name, const ShaderStage& stage) {
+    compile(program_name, stage);
+}
+
 Program::Program(std::string name, std::span<const ShaderStage> stages)
     : name_(std::move(name)), handle_(glCreateProgram()) {
     set_label(GL_PROGRAM, id(), name_);

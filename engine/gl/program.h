@@ -20,6 +20,9 @@ struct ShaderStage {
     ShaderSource source;
 };
 
+// Compiles a shader and throws it away. Error as of a Program of this name.
+void check_shader(const std::string& program_name, const ShaderStage& stage);
+
 class Program {
   public:
     // Compiles and links. Error on one line with the program's name, file:line and the driver's messages.

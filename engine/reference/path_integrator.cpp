@@ -35,7 +35,15 @@ glm::vec3 PathIntegrator::sample_radiance(int column, int row, std::uint32_t sam
     const RayRecord ray = make_camera_ray(column, row);
     const auto hit = trace(ray, RAY_CAMERA, BackFaces::PASS);
     if (!hit) return scene_.load_environment(ray.direction);
-    return gather_path(make_vertex(*hit, ray.direction));
+    return gather_path(find_first_vertex(*hit, ray.direction));
+}
+
+// Without a pixel filter nearly all samples of a pixel begin at one place.
+const PathIntegrator::Vertex& PathIntegrator::find_first_vertex(const Hit& hit, const glm::vec3& direction) {
+    const bool is_known = hit.instance == first_.hit.instance && hit.primitive == first_.hit.primitive &&
+                          hit.barycentrics == first_.hit.barycentrics && direction == first_.direction;
+    if (!is_known) first_ = {hit, direction, make_vertex(hit, direction)};
+    return first_.vertex;
 }
 
 RayRecord PathIntegrator::make_camera_ray(int column, int row) const {
@@ -65,6 +73,11 @@ PathIntegrator::Vertex PathIntegrator::make_vertex(const Hit& hit, const glm::ve
     vertex.frame = make_frame(vertex.surface.point.shading_normal);
     vertex.brdf = prepare_brdf(vertex.surface.point.material, to_local(vertex.frame, -direction));
     return vertex;
+}
+
+bool PathIntegrator::may_emit(const Hit& hit) {
+    const std::uint32_t material = scene_.load_instance(hit.instance).material;
+    return !is_black(scene_.load_material(material).emission);
 }
 
 // The camera's first surface onwards. Emission found by bounce rays was also looked for by direct sampling
@@ -100,6 +113,8 @@ glm::vec3 PathIntegrator::gather_path(Vertex vertex) {
             radiance += throughput * weigh_sky(next.direction, next.pdf_solid_angle);
             break;
         }
+        // Where the path ends, all that counts is what the surface emits.
+        if (bounce + 1 == bounces && !may_emit(*hit)) break;
         const Vertex reached = make_vertex(*hit, next.direction);
         if (reached.surface.unlit) break;
         radiance += throughput * weigh_emission(vertex, reached, *hit, next.pdf_solid_angle);

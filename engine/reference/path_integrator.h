@@ -36,6 +36,9 @@ class PathIntegrator {
     RayRecord make_camera_ray(int column, int row) const;
     std::optional<Hit> trace(const RayRecord& ray, std::uint32_t ray_kind, BackFaces back_faces);
     Vertex make_vertex(const Hit& hit, const glm::vec3& direction);
+    const Vertex& find_first_vertex(const Hit& hit, const glm::vec3& direction);
+    // False where the surface emits nothing, whatever its side and textures.
+    bool may_emit(const Hit& hit);
     glm::vec3 gather_path(Vertex vertex);
 
     SceneAccess::LightCandidate draw_light(const ShadingPoint& point, std::uint32_t dimension);
@@ -55,6 +58,13 @@ class PathIntegrator {
     SceneAccess scene_;
     RandomKey key_{};
     std::uint64_t rays_ = 0;
+
+    struct FirstVertex {
+        Hit hit;  // of no instance before the first path
+        glm::vec3 direction{0.0f};
+        Vertex vertex{};
+    };
+    FirstVertex first_;  // of the last path that met anything
 };
 
 }  // namespace tarn

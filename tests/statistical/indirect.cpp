@@ -15,7 +15,7 @@ constexpr int SEEDS = 24;
 constexpr int FIRST_FRAME_SEEDS = 96;
 constexpr int MOVING_FRAMES = 12;
 constexpr int COARSE_SEEDS = 32;
-constexpr std::uint64_t REFERENCE_SPP = 4096;
+constexpr std::uint64_t REFERENCE_SPP = 1024;  // about a tenth of the variance: most is the samples'
 // What a test must be able to find in a tile, nine times in ten.
 constexpr double DETECTABLE = 0.03;
 
@@ -127,7 +127,7 @@ TEST_F(Indirect, ReusedSamplesHaveTheReferencesMeanWhateverTheWeights) {
         const std::string what = fmt::format("restir, mis {}", int(mis));
         expect_pass(run(unbiased(mis), what, 0, FIRST_FRAME_SEEDS), what);
         // Pairwise has the shortest tails.
-        expect_pass(run(unbiased(mis), what, 15, mis == Mis::PAIRWISE ? SEEDS : 4 * SEEDS), what);
+        expect_pass(run(unbiased(mis), what, 15, mis == Mis::PAIRWISE ? SEEDS : 2 * SEEDS), what);
     }
 }
 
@@ -229,7 +229,10 @@ TEST_F(Indirect, MistakesOfTheReconnectionAreFound) {
     for (const char* bug : {"TARN_PLANT_DROP_RECONNECTION_JACOBIAN", "TARN_PLANT_CLAMP_RECONNECTION_JACOBIAN",
                             "TARN_PLANT_TARGET_AT_NEIGHBOUR"}) {
         for (const Mis mis : {Mis::BALANCE, Mis::PAIRWISE}) {
-            const TileTest test = run(unbiased(mis), fmt::format("{} {}", bug, int(mis)), 7, SEEDS, {bug});
+            // The subtlest one takes more seeds to stand out.
+            const bool is_subtle = bug == std::string("TARN_PLANT_DROP_RECONNECTION_JACOBIAN");
+            const TileTest test = run(unbiased(mis), fmt::format("{} {}", bug, int(mis)), 7,
+                                      is_subtle ? 2 * SEEDS : SEEDS, {bug});
             EXPECT_FALSE(test.passes) << bug << " with mis " << int(mis);
         }
     }

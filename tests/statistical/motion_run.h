@@ -180,9 +180,12 @@ class MotionTest : public OnContext<> {
             }
             MotionResult result{picture_.test(truth, SIGNIFICANCE), tiles_.test(truth, SIGNIFICANCE)};
             result.energy = result.picture.mean / result.picture.reference_mean;
-            fmt::print("{}: energy {:.4f} +- {:.4f}, finds {:.2g} %; {}\n", method_.name, result.energy,
-                       result.picture.standard_error / result.picture.reference_mean,
-                       100.0 * result.picture.detectable_bias, describe(result.tiles));
+            fmt::print(
+                "{}: energy {:.4f} +- {:.4f}, finds {:.2g} % ({:.0f} % of the variance the reference's); "
+                "{}\n",
+                method_.name, result.energy, result.picture.standard_error / result.picture.reference_mean,
+                100.0 * result.picture.detectable_bias, 100.0 * result.picture.reference_share,
+                describe(result.tiles));
             return result;
         }
 

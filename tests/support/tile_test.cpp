@@ -184,8 +184,10 @@ class PooledTest {
         result_.threshold = sidak_threshold(significance, std::max(result_.tests, 1));
         result_.passes = result_.min_p_value >= result_.threshold;
         for (const Power& power : powers_) {
-            result_.detectable_bias =
-                std::max(result_.detectable_bias, power.detectable_bias(result_.threshold));
+            const double detectable_bias = power.detectable_bias(result_.threshold);
+            if (detectable_bias <= result_.detectable_bias) continue;
+            result_.detectable_bias = detectable_bias;
+            result_.reference_share = power.reference_share;
         }
         return result_;
     }
@@ -195,6 +197,7 @@ class PooledTest {
     struct Power {
         double relative_error;  // standard error of the difference over the reference's mean
         double degrees_of_freedom;
+        double reference_share;  // of the variance
 
         double detectable_bias(double threshold) const {
             const double critical = student_t_quantile(1.0 - 0.5 * threshold, degrees_of_freedom);
@@ -261,8 +264,10 @@ class PooledTest {
     void record(const Candidate& candidate, int channel) {
         ++result_.tests;
         if (channel == LUMINANCE_CHANNEL && candidate.b.mean > 0.0) {
-            powers_.push_back({candidate.difference.standard_error / candidate.b.mean,
-                               candidate.difference.degrees_of_freedom});
+            const Difference& difference = candidate.difference;
+            const double variance = difference.standard_error * difference.standard_error;
+            powers_.push_back({difference.standard_error / candidate.b.mean, difference.degrees_of_freedom,
+                               variance > 0.0 ? candidate.b.variance / variance : 0.0});
         }
         const double p_value = candidate.difference.p_value();
         if (result_.tests > 1 && !(p_value < result_.min_p_value)) return;
@@ -297,9 +302,10 @@ TileTest finish(TileTest test, std::size_t non_finite) {
 std::string describe(const TileTest& t) {
     return fmt::format(
         "smallest p {:.3g}, threshold {:.3g}, {:.0f} % of tests pooled; worst tile at ({}, {}), {} px, "
-        "channel {}: {:.6g} against {:.6g}, standard error {:.3g}; finds a bias of {:.2g} %",
+        "channel {}: {:.6g} against {:.6g}, standard error {:.3g}; finds a bias of {:.2g} %, "
+        "{:.0f} % of its variance the reference's",
         t.min_p_value, t.threshold, 100.0 * t.pooled_fraction, t.x, t.y, t.size_px, t.channel, t.mean,
-        t.reference_mean, t.standard_error, 100.0 * t.detectable_bias);
+        t.reference_mean, t.standard_error, 100.0 * t.detectable_bias, 100.0 * t.reference_share);
 }
 
 TileSamples::TileSamples(int width_px, int height_px, int tile_size_px)
