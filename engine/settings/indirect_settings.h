@@ -41,8 +41,8 @@ struct IndirectSettings {
     NoiseKind noise = NoiseKind::WHITE;
     IndirectResolution resolution = IndirectResolution::FULL;
     int bounces = 1;     // surfaces that light meets before the one that is seen
-    int candidates = 4;  // light candidates at each of them
-    PathLights lights = PathLights::POWER;
+    int candidates = 2;  // light candidates at each of them
+    PathLights lights = PathLights::TREE;
     double light_rays = 0.25;  // of paths, those whose last surface sends a ray that looks for lamps
     IndirectCache cache = IndirectCache::OFF;
     int validation = 4;  // frames after which kept samples are asked again for their lamps; 0: never

@@ -31,6 +31,7 @@ RenderSettings fast_settings() {
     s.reuse.age_cap = 30;
     reuse_paths_alike(settings);
     settings.indirect.resolution = IndirectResolution::HALF;
+    settings.indirect.candidates = 1;
     return settings;
 }
 

@@ -40,6 +40,7 @@ class Indirect : public OnContext<> {
   protected:
     static void TearDownTestSuite() {
         cases_.clear();
+        under_sky_.reset();
         OnContext::TearDownTestSuite();
     }
 
@@ -48,6 +49,15 @@ class Indirect : public OnContext<> {
         std::unique_ptr<DirectLightCase>& found = cases_[bounces];
         if (!found) found = std::make_unique<DirectLightCase>("cornell", 1.0, REFERENCE_SPP, bounces + 1);
         return *found;
+    }
+
+    // The same in an even sky, which lights it through its open front.
+    static DirectLightCase& find_case_under_sky() {
+        WorldOptions options;
+        options.environment = make_even_sky(3.0f);
+        if (!under_sky_)
+            under_sky_ = std::make_unique<DirectLightCase>("cornell", 1.0, REFERENCE_SPP, 2, options);
+        return *under_sky_;
     }
 
     static CameraRecord move_camera(DirectLightCase& box, int frames_before) {
@@ -60,7 +70,12 @@ class Indirect : public OnContext<> {
     // Frame `frame`, counted from 0, of `seeds` runs.
     static TileTest run(const RenderSettings& settings, const std::string& what, int frame, int seeds,
                         const std::vector<std::string>& planted = {}, bool moves = false) {
-        DirectLightCase& box = find_case(settings.indirect.bounces);
+        return run(find_case(settings.indirect.bounces), settings, what, frame, seeds, planted, moves);
+    }
+
+    static TileTest run(DirectLightCase& box, const RenderSettings& settings, const std::string& what,
+                        int frame, int seeds, const std::vector<std::string>& planted = {},
+                        bool moves = false) {
         Renderer renderer(box.scene().world, *box.scene().tracer, WIDTH_PX, HEIGHT_PX, planted);
         FrameInput input;
         input.settings = settings;
@@ -100,6 +115,7 @@ class Indirect : public OnContext<> {
     }
 
     static inline std::map<int, std::unique_ptr<DirectLightCase>> cases_;
+    static inline std::unique_ptr<DirectLightCase> under_sky_;
 };
 
 TEST_F(Indirect, PathsHaveTheReferencesMeanHoweverTheyAreDrawn) {
@@ -112,6 +128,30 @@ TEST_F(Indirect, PathsHaveTheReferencesMeanHoweverTheyAreDrawn) {
             const std::string what = fmt::format("path, sampling {}, noise {}", int(sampling), int(noise));
             expect_pass(run(settings, what, 0, FIRST_FRAME_SEEDS), what);
         }
+    }
+}
+
+RenderSettings looking_for_lamps(PathLights lights, double light_rays) {
+    RenderSettings settings = make_settings(IndirectMode::PATH);
+    settings.indirect.lights = lights;
+    settings.indirect.light_rays = light_rays;
+    return settings;
+}
+
+TEST_F(Indirect, PathsHaveTheReferencesMeanHoweverTheyFindLamps) {
+    for (const auto& [lights, rays] : {std::pair(PathLights::POWER, 0.0), std::pair(PathLights::TREE, 0.0),
+                                       std::pair(PathLights::TREE, 1.0)}) {
+        const std::string what = fmt::format("path, lights {}, rays {}", int(lights), rays);
+        expect_pass(run(looking_for_lamps(lights, rays), what, 0, FIRST_FRAME_SEEDS), what);
+    }
+}
+
+TEST_F(Indirect, LampsAndSkyAreSharedByCandidatesAndRays) {
+    for (const PathLights lights : {PathLights::POWER, PathLights::TREE}) {
+        RenderSettings settings = looking_for_lamps(lights, 0.25);
+        settings.direct.candidates = 64;  // the sky makes direct light noisy
+        const std::string what = fmt::format("under a sky, lights {}", int(lights));
+        expect_pass(run(find_case_under_sky(), settings, what, 0, 4 * FIRST_FRAME_SEEDS), what);
     }
 }
 
@@ -235,6 +275,14 @@ TEST_F(Indirect, MistakesOfTheReconnectionAreFound) {
                                       is_subtle ? 2 * SEEDS : SEEDS, {bug});
             EXPECT_FALSE(test.passes) << bug << " with mis " << int(mis);
         }
+    }
+}
+
+TEST_F(Indirect, LampsThatCandidatesAndRaysDoNotShareAreFound) {
+    const RenderSettings settings = looking_for_lamps(PathLights::TREE, 0.25);
+    for (const char* bug : {"TARN_PLANT_FORGET_LIGHT_PDF", "TARN_PLANT_FORGET_RAY_SHARE"}) {
+        const TileTest test = run(find_case_under_sky(), settings, bug, 0, FIRST_FRAME_SEEDS, {bug});
+        EXPECT_FALSE(test.passes) << bug;
     }
 }
 

@@ -60,21 +60,19 @@ PathSample further_sample(PathState s) {
 Sources load_finished_path(uint pixel) {
     PathState s = load_path_state(in_path_states, pixel);
     settle_waiting(s, texelFetch(answers, int(pixel)).x, bounce == 0u);
-    MetLight met = MetLight(no_light_sample(), vec3(0.0f));
+    Sources sources;
+    sources.by[2] = lit_from(s.place, s.further_direction, vec3(0.0f), no_light_sample());
 #ifdef TARN_LIGHT_RAYS
     int row = int(pixel * HIT_ROWS);
     HitRecord hit = unpack_hit(texelFetch(light_hits, row), texelFetch(light_hits, row + 1));
-    met = find_met_light(s, hit, ray_share);
+    MetLight met = find_met_light(s, hit, ray_share);
     // Beyond the place it is one part of what lies further on.
-    if (bounce > 0u) {
-        s.further += met.value;
-        met.value = vec3(0.0f);
-    }
+    s.further += bounce > 0u ? met.value : vec3(0.0f);
+    sources.by[2].incident = bounce > 0u ? vec3(0.0f) : met.value;
+    sources.by[2].light = met.drawn;
 #endif
-    Sources sources;
     sources.by[0] = s.place;
     sources.by[1] = further_sample(s);
-    sources.by[2] = lit_from(s.place, s.further_direction, met.value, met.drawn);
     return sources;
 }
 
