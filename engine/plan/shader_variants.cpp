@@ -279,6 +279,17 @@ std::vector<CompositeVariant> CompositeVariant::all() {
     return {{false, false}, {false, true}, {true, false}, {true, true}, {true, true, true}};
 }
 
+Defines AntialiasVariant::defines() const {
+    Defines result;
+    if (at_rest) result.emplace_back("TARN_AT_REST");
+    if (enlarges) result.emplace_back("TARN_ENLARGE");
+    return result;
+}
+
+std::vector<AntialiasVariant> AntialiasVariant::all() {
+    return {{false, false}, {false, true}, {true, false}, {true, true}};
+}
+
 Defines DisplayVariant::defines() const {
     constexpr std::array<const char*, DISPLAY_VIEW_COUNT> DEFINES = {
         "TARN_VIEW_RADIANCE",       "TARN_VIEW_LUMINANCE",         "TARN_VIEW_ALBEDO",
@@ -322,6 +333,7 @@ std::vector<ShaderFamily> shader_families() {
             family_of<DenoiseAccumulateVariant>(),
             family_of<DenoiseFilterVariant>(),
             family_of<CompositeVariant>(),
+            family_of<AntialiasVariant>(),
             family_of<EnlargeVariant>(),
             family_of<ExposureVariant>(),
             family_of<DisplayVariant>()};

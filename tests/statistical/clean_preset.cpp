@@ -1,8 +1,9 @@
 // The preset `clean` keeps the energy that it promises, at rest and walking: direct and indirect light,
 // denoised, against the reference of as many bounces.
 //
-// Lamps in view would outshine all else: pixels that emit are left out, and so are those far above the mean
-// in either picture, which the noise of few samples decides.
+// Lamps in view would outshine all else: pixels that emit are left out with those beside them, which share
+// lamps' edges, and so are those far above the mean in either picture, which the noise of few samples
+// decides.
 #include <cmath>
 
 #include "core/statistics.h"
@@ -36,6 +37,21 @@ Luminances luminance_of(const Image& image) {
     return result;
 }
 
+// Pixels that emit, and those beside them.
+std::vector<bool> find_lamps(const std::vector<glm::vec4>& emission) {
+    std::vector<bool> result(emission.size(), false);
+    for (int i = 0; i < int(emission.size()); ++i) {
+        const glm::vec4& texel = emission[std::size_t(i)];
+        if (texel.x + texel.y + texel.z == 0.0f) continue;
+        const int x = i % WIDTH_PX, y = i / WIDTH_PX;
+        for (int v = std::max(0, y - 1); v <= std::min(HEIGHT_PX - 1, y + 1); ++v) {
+            for (int u = std::max(0, x - 1); u <= std::min(WIDTH_PX - 1, x + 1); ++u)
+                result[std::size_t(v * WIDTH_PX + u)] = true;
+        }
+    }
+    return result;
+}
+
 class CleanPreset : public OnContext<testing::TestWithParam<const char*>> {
   protected:
     CameraRecord camera_at(int frame, float step_m) const {
@@ -44,7 +60,7 @@ class CleanPreset : public OnContext<testing::TestWithParam<const char*>> {
         return camera;
     }
 
-    // The last frame; `emits` gets which pixels do.
+    // The last frame; `emits` gets find_lamps.
     Luminances render(float step_m, std::uint32_t seed, std::vector<bool>& emits) const {
         Renderer renderer(scene_->world, *scene_->tracer, WIDTH_PX, HEIGHT_PX);
         FrameInput input;
@@ -57,11 +73,7 @@ class CleanPreset : public OnContext<testing::TestWithParam<const char*>> {
             const FrameOutput output = renderer.render(input);
             if (frame + 1 < FRAMES) continue;
             last = luminance_of(renderer.read_radiance(output.radiance));
-            emits.clear();
-            for (const glm::vec4& texel :
-                 output.gbuffer.surfaces->layers[LAYER_EMISSION].download<glm::vec4>()) {
-                emits.push_back(texel.x + texel.y + texel.z > 0.0f);
-            }
+            emits = find_lamps(output.gbuffer.surfaces->layers[LAYER_EMISSION].download<glm::vec4>());
         }
         return last;
     }
@@ -73,6 +85,7 @@ class CleanPreset : public OnContext<testing::TestWithParam<const char*>> {
         settings.camera = camera_at(FRAMES - 1, 0.0f);
         settings.bounces = 2;
         settings.spp = REFERENCE_SPP;
+        settings.box_pixel_filter = true;
         return luminance_of(render_reference(scene_->world, *scene_->tracer, settings).radiance);
     }
 

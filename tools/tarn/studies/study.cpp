@@ -75,6 +75,7 @@ void add_study_command(CLI::App& app) {
     add_fault_study(*study);
     add_lag_study(*study);
     add_cache_study(*study);
+    add_crawl_study(*study);
 }
 
 }  // namespace tarn
