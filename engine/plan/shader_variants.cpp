@@ -283,11 +283,18 @@ Defines AntialiasVariant::defines() const {
     Defines result;
     if (at_rest) result.emplace_back("TARN_AT_REST");
     if (enlarges) result.emplace_back("TARN_ENLARGE");
+    if (mean == AntialiasMean::DISPLAY) result.emplace_back("TARN_DISPLAY_MEAN");
     return result;
 }
 
 std::vector<AntialiasVariant> AntialiasVariant::all() {
-    return {{false, false}, {false, true}, {true, false}, {true, true}};
+    std::vector<AntialiasVariant> result;
+    for (const AntialiasMean mean : {AntialiasMean::RADIANCE, AntialiasMean::DISPLAY}) {
+        for (const bool at_rest : {false, true}) {
+            for (const bool enlarges : {false, true}) result.push_back({at_rest, enlarges, mean});
+        }
+    }
+    return result;
 }
 
 Defines DisplayVariant::defines() const {

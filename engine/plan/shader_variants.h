@@ -254,6 +254,7 @@ struct AntialiasVariant {
     static constexpr bool IS_OF_SCENE = true;
     bool at_rest = false;   // nothing has moved or changed since the last frame
     bool enlarges = false;  // the picture is larger than what is rendered
+    AntialiasMean mean = AntialiasMean::RADIANCE;
     Defines defines() const;
     static std::vector<AntialiasVariant> all();
 };

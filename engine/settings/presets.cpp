@@ -41,6 +41,7 @@ RenderSettings clean_settings() {
     settings.indirect.mode = IndirectMode::RESTIR;
     settings.denoise.mode = DenoiseMode::SVGF;
     settings.antialias.mode = AntialiasMode::TAA;
+    settings.antialias.mean = AntialiasMean::DISPLAY;
     return settings;
 }
 

@@ -17,6 +17,7 @@
 // Samples that are no light, or far above all around them and not light of their own surface, are left out and counted.
 //
 // TARN_AT_REST: nothing has moved or changed since the last frame. TARN_ENLARGE: less is rendered than is shown.
+// TARN_DISPLAY_MEAN: the mean is that of compressed colours, of which white is the display's.
 #include "shared/interface/constants/antialias.h"
 #include "lib/frame.glsl"
 #include "lib/gbuffer.glsl"
@@ -29,6 +30,9 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = UNIT_PASS_A) uniform sampler2D frame_radiance;
 layout(binding = UNIT_PASS_B) uniform sampler2D last_picture;
+#ifdef TARN_DISPLAY_MEAN
+layout(binding = UNIT_PASS_C) uniform usamplerBuffer exposure;
+#endif
 layout(binding = 0, rgba32f) writeonly uniform image2D out_picture;
 
 const int TAPS = 9;
@@ -46,6 +50,18 @@ vec2 sample_jitter() {
     return frame_jitter.xy;
 #endif
 }
+
+// ---- What the picture is a mean of
+
+#ifdef TARN_DISPLAY_MEAN
+// Radiance near white on the display.
+float white() { return 1.0f / max(uintBitsToFloat(texelFetch(exposure, 0).x), 1e-30f); }
+vec3 to_mean(vec3 radiance) { return compress_colour(radiance, white()); }
+vec3 from_mean(vec3 mean) { return expand_colour(mean, white()); }
+#else
+vec3 to_mean(vec3 radiance) { return radiance; }
+vec3 from_mean(vec3 mean) { return mean; }
+#endif
 
 // ---- The past
 
@@ -172,8 +188,7 @@ bool is_stray(ivec2 pixel, vec3 radiance, float greatest_around) {
     return false;
 #else
     vec3 reflected = radiance - load_layer(pixel, LAYER_EMISSION).xyz;
-    return is_outlier(luminance(radiance), greatest_around) &&
-           is_outlier(luminance(reflected), greatest_around);
+    return exceeds_all_around(radiance, greatest_around) && exceeds_all_around(reflected, greatest_around);
 #endif
 }
 
@@ -205,7 +220,11 @@ Around load_around(ivec2 pixel) {
 
 // The past, as far as the colours around explain it.
 vec3 clip_past(Past past, Around around) {
-    const float CLIP = 1.25f;  // deviations
+#ifdef TARN_ENLARGE
+    const float CLIP = 1.75f;  // deviations: fewer samples say less of what there is
+#else
+    const float CLIP = 1.25f;
+#endif
     const float LEAST_SIZE = 1e-5f;
     float key = luminance(around.radiance[CENTRE]) + luminance(past.radiance) + 1e-20f;
     vec3 sum = vec3(0.0f), squares = vec3(0.0f);
@@ -241,7 +260,7 @@ Present weigh(Around around, vec2 offset, float known) {
 #else
         float weight = (tap == CENTRE ? 1.0f : 0.0f) + wide;
 #endif
-        present.sum += weight * around.usable[tap] * around.radiance[tap];
+        present.sum += weight * around.usable[tap] * to_mean(around.radiance[tap]);
         present.weight += weight * around.usable[tap];
     }
     return present;
@@ -252,9 +271,9 @@ Present weigh(Around around, vec2 offset, float known) {
 Present load_sample(ivec2 pixel, Past past) {
     vec4 value = texelFetch(frame_radiance, pixel, 0);
     bool odd = !is_usable(value) || past.count == 0.0f ||
-               luminance(value.xyz) > OUTLIER_RATIO * luminance(past.radiance);
+               luminance(value.xyz) > STRAY_RATIO * luminance(past.radiance);
     if (odd) return weigh(load_around(pixel), vec2(0.0f), past.count);
-    return Present(value.xyz, 1.0f, true);
+    return Present(to_mean(value.xyz), 1.0f, true);
 }
 
 void main() {
@@ -275,8 +294,9 @@ void main() {
     if (!present.complete) count_event(COUNTER_BAD_PICTURE);
     float total = past.count + present.weight;
     // A mean of equal values is that value, to the bit.
-    vec3 step = present.sum - present.weight * past.radiance;
-    vec3 mean = past.radiance + step * ratio_or_zero(1.0f, total);
+    vec3 before = to_mean(past.radiance);
+    vec3 step = present.sum - present.weight * before;
+    vec3 mean = before + step * ratio_or_zero(1.0f, total);
     float count = add_to_count(past.count, present.weight, steady_count, greatest_count);
-    imageStore(out_picture, pixel, vec4(mean, count));
+    imageStore(out_picture, pixel, vec4(from_mean(mean), count));
 }

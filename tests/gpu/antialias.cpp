@@ -4,6 +4,7 @@
 
 #include "passes/antialias/jitter.h"
 #include "renderer/renderer.h"
+#include "shared/math/colour.h"
 #include "support/on_context.h"
 #include "support/test_scenes.h"
 
@@ -13,7 +14,7 @@ namespace {
 constexpr glm::ivec2 SIZE_PX(96, 54);
 
 RenderSettings antialiased(RenderSettings settings, double scale = 1.0) {
-    settings.antialias = {AntialiasMode::TAA, scale};
+    settings.antialias = {AntialiasMode::TAA, AntialiasMean::RADIANCE, scale};
     return settings;
 }
 
@@ -88,13 +89,14 @@ class AntialiasedCourt : public Antialias {
 // The same samples, as their mean and as the picture over time: lamps a pixel wide, mirrors and all.
 TEST_F(AntialiasedCourt, KeepsTheEnergyOfItsSamples) {
     constexpr int FRAMES = 32;
+    const int places = plan_antialias(antialiased({})).jitter_count;
     for (const char* preset : {"fast", "clean"}) {
         RenderSettings settings = find_preset(preset).settings;
         settings.antialias = {};
         double expected = 0.0, found = 0.0;
         input_.settings = settings;
         for (input_.frame = 0; input_.frame < FRAMES;) {
-            input_.jitter_px = find_jitter(input_.frame, 16);
+            input_.jitter_px = find_jitter(input_.frame, places);
             for (const glm::vec4& texel : render()) expected += luminance(glm::vec3(texel)) / FRAMES;
         }
         renderer_.reset_history();

@@ -26,7 +26,7 @@ using Pixels = std::vector<glm::vec3>;
 class AntialiasStage {
   public:
     AntialiasStage(const glm::ivec2& output_px, double scale) : output_px_(output_px) {
-        settings.antialias = {AntialiasMode::TAA, scale};
+        settings.antialias = {AntialiasMode::TAA, AntialiasMean::RADIANCE, scale};
         const float height = 0.5f;
         camera_.right = glm::vec3(height * float(output_px.x) / float(output_px.y), 0.0f, 0.0f);
         camera_.up = glm::vec3(0.0f, height, 0.0f);
@@ -45,6 +45,7 @@ class AntialiasStage {
         context_.plant(defines);
     }
     void move_camera(const glm::vec3& by) { camera_.position += by; }
+    void forget() { history_ = {}; }
     void set_output(const glm::ivec2& output_px) { output_px_ = output_px; }
 
     glm::ivec2 size_px() const {

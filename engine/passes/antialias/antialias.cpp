@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "passes/exposure.h"
 #include "shared/interface/bindings.h"
 #include "shared/interface/constants/antialias.h"
 
@@ -24,6 +25,9 @@ Picture antialias(const FrameContext& frame, const GBuffer& gbuffer, const Pictu
     constants.steady_count = float(std::max(LEAST_STEADY_COUNT, STEADY_COUNT * scale * scale));
     constants.greatest_count = GREATEST_COUNT;
     constants.has_previous = previous ? 1u : 0u;
+    const AntialiasMean mean = frame.settings.antialias.mean;
+    Exposure exposure;
+    if (mean == AntialiasMean::DISPLAY) exposure = find_exposure(frame, radiance, {}, std::nullopt);
     const Picture picture = frame.recorder.take_picture("antialias", frame.output_px, GL_RGBA32F);
     PassRecorder pass = frame.pass("antialias");
     read_gbuffer(pass, gbuffer)
@@ -32,7 +36,8 @@ Picture antialias(const FrameContext& frame, const GBuffer& gbuffer, const Pictu
         .write_image(0, *picture)
         .count(BLOCK_COUNTERS, frame.counters);
     if (previous) pass.read(UNIT_PASS_B, *previous, previous->value().picture);
-    const AntialiasVariant variant{!frame.has_moved, frame.output_px != frame.size_px};
+    if (exposure) pass.read(UNIT_PASS_C, exposure);
+    const AntialiasVariant variant{!frame.has_moved, frame.output_px != frame.size_px, mean};
     pass.dispatch(frame.compute(variant), frame.output_px);
     return picture;
 }
