@@ -1,12 +1,12 @@
 // Antialiasing over time: joins the samples of this frame, each of which lies in another place of its pixel than in the
 // frames before (find_jitter), with the picture of the last frames, which has the size of what is shown.
 //
-// The past is a mean of radiance and a count of the samples behind it (w), so that each sample weighs the same and a
-// picture at rest becomes the integral over each pixel: linear radiance, so that no energy is lost. It ends at
-// `greatest_count`.
+// The past is a mean and a count of the samples behind it (w), so that each sample weighs the same and a picture at rest
+// becomes the integral over each pixel: of linear radiance, so that no energy is lost, or of what the display shows, so
+// that edges of lamps are smooth too. The count ends at `greatest_count`.
 //
 // Where things move, the past is read where the nearest surface around the pixel was (edges move with what is in front),
-// by a cubic over the 12 pixels without the corners, kept within the four inner ones: sharp, and no
+// by a cubic over the 12 pixels without the corners, kept near the range of the four inner ones: sharp, and little
 // ringing. What the colours of this frame around the pixel do not explain is moved towards their mean until it lies
 // within CLIP deviations (Salvi 2016, in the compressed colours of Karis 2014). At rest nothing of the past is wrong:
 // it is taken as it is.
@@ -116,6 +116,7 @@ vec4 load_last(ivec2 pixel) {
 
 // The last picture at `place`, in pixels from its corner. The count is that of the pixel there.
 vec4 sample_last(vec2 place) {
+    const float RINGING = 1.3f;  // beyond the four pixels around: crests of waves, but no dark rims of lamps
     vec2 from_centre = place - 0.5f;
     ivec2 first = ivec2(floor(from_centre));
     vec2 share = from_centre - floor(from_centre);
@@ -135,7 +136,7 @@ vec4 sample_last(vec2 place) {
     vec3 least = min(min(a.xyz, b.xyz), min(c.xyz, d.xyz));
     vec3 greatest = max(max(a.xyz, b.xyz), max(c.xyz, d.xyz));
     float count = share.y < 0.5f ? (share.x < 0.5f ? a.w : b.w) : (share.x < 0.5f ? c.w : d.w);
-    return vec4(max(sum, vec3(0.0f)), count);
+    return vec4(clamp(sum, least / RINGING, greatest * RINGING), count);
 }
 
 // `nearest`: the frame's pixel whose sample is nearest to `pixel` of the picture.

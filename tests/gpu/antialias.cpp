@@ -88,7 +88,7 @@ class AntialiasedCourt : public Antialias {
 
 // The same samples, as their mean and as the picture over time: lamps a pixel wide, mirrors and all.
 TEST_F(AntialiasedCourt, KeepsTheEnergyOfItsSamples) {
-    constexpr int FRAMES = 32;
+    constexpr int FRAMES = 16;
     const int places = plan_antialias(antialiased({})).jitter_count;
     for (const char* preset : {"fast", "clean"}) {
         RenderSettings settings = find_preset(preset).settings;
