@@ -41,7 +41,6 @@ RenderSettings clean_settings() {
     settings.indirect.mode = IndirectMode::RESTIR;
     settings.denoise.mode = DenoiseMode::SVGF;
     settings.antialias.mode = AntialiasMode::TAA;
-    settings.antialias.mean = AntialiasMean::DISPLAY;
     return settings;
 }
 

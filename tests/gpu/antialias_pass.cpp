@@ -328,5 +328,55 @@ TEST(AntialiasPass, TheMeanOfTheDisplaySmoothsTheEdgesOfLamps) {
     EXPECT_LT(smooth, 0.5 * stairs);
 }
 
+// ---- Crawling
+
+// Stripes of less than two pixels.
+Sight see_stripes(const glm::vec3& origin, const glm::vec3& direction) {
+    Sight sight = see_edge(origin, direction);
+    const float across = sight.position.x + 0.2f * sight.position.y;
+    sight.radiance = glm::vec3(std::sin(30.0f * across) > 0.0f ? 1.0f : 0.1f);
+    return sight;
+}
+
+// Mean of |a - 2 b + c| of three pictures in a row, as the display shows them.
+double second_difference(const std::vector<Pixels>& pictures) {
+    const auto shown = [](double value) { return std::pow(std::clamp(value, 0.0, 1.0), 1.0 / 2.2); };
+    double sum = 0.0;
+    for (std::size_t f = 2; f < pictures.size(); ++f) {
+        for (std::size_t i = 0; i < pictures[f].size(); ++i) {
+            sum += std::abs(shown(pictures[f - 2][i].x) - 2.0 * shown(pictures[f - 1][i].x) +
+                            shown(pictures[f][i].x));
+        }
+    }
+    return sum / double((pictures.size() - 2) * pictures[0].size());
+}
+
+// What a camera that walks a ninth of a pixel a frame sees crawl beyond what the integral over each pixel
+// does: with antialiasing, over that of single samples.
+double find_crawling(const SightOf& sight) {
+    AntialiasStage stage(OUTPUT_PX, 1.0);
+    stage.plant({});
+    stage.has_moved = true;
+    std::vector<Pixels> single, smooth, truth;
+    for (int frame = 0; frame < 24; ++frame) {
+        stage.move_camera({0.013f, 0.0f, 0.0f});
+        const Pixels found = stage.render(sight);
+        if (frame < 12) continue;
+        smooth.push_back(found);
+        single.push_back(stage.integrate(sight, 1));
+        truth.push_back(stage.integrate(sight, 8));
+    }
+    const double before = second_difference(single), after = second_difference(smooth);
+    const double least = second_difference(truth);
+    fmt::print("second difference: single samples {:.4f}, antialiased {:.4f}, integral {:.4f}\n", before,
+               after, least);
+    return (after - least) / (before - least);
+}
+
+TEST(AntialiasPass, EdgesAndFineTextureCrawlLess) {
+    EXPECT_LT(find_crawling(see_edge), 0.25);
+    EXPECT_LT(find_crawling(see_stripes), 0.25);
+}
+
 }  // namespace
 }  // namespace tarn
