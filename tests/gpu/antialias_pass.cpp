@@ -374,7 +374,7 @@ double find_crawling(const SightOf& sight) {
 }
 
 TEST(AntialiasPass, EdgesAndFineTextureCrawlLess) {
-    EXPECT_LT(find_crawling(see_edge), 0.25);
+    EXPECT_LT(find_crawling(see_edge), 1.0 / 3.0);
     EXPECT_LT(find_crawling(see_stripes), 0.25);
 }
 
