@@ -221,11 +221,7 @@ Around load_around(ivec2 pixel) {
 
 // The past, as far as the colours around explain it.
 vec3 clip_past(Past past, Around around) {
-#ifdef TARN_ENLARGE
-    const float CLIP = 1.75f;  // deviations: fewer samples say less of what there is
-#else
-    const float CLIP = 1.25f;
-#endif
+    const float CLIP = 2.5f;  // deviations: less would take more energy from what single frames miss
     const float LEAST_SIZE = 1e-5f;
     float key = luminance(around.radiance[CENTRE]) + luminance(past.radiance) + 1e-20f;
     vec3 sum = vec3(0.0f), squares = vec3(0.0f);
