@@ -14,6 +14,7 @@ namespace game {
 namespace {
 
 constexpr float WIDTH_EM = 25.0f;
+constexpr const char* SCALE_ROW = "scale";
 const ImVec4 ERROR_COLOUR(1.0f, 0.35f, 0.3f, 1.0f);
 const ImVec4 QUIET_COLOUR(0.65f, 0.65f, 0.65f, 1.0f);
 
@@ -67,15 +68,18 @@ void draw_view_combo(const std::vector<DisplayViewInfo>& views, std::string& cho
     ImGui::EndCombo();
 }
 
-void draw_resolution_combo(int& percent) {
-    constexpr std::array<int, 6> STEPS = {25, 33, 50, 67, 75, 100};
-    if (ImGui::BeginCombo("resolution", fmt::format("{} %", percent).c_str())) {
-        for (const int step : STEPS) {
-            if (ImGui::Selectable(fmt::format("{} %", step).c_str(), step == percent)) percent = step;
+// In steps: each size needs memory of its own.
+void draw_scale_combo(Settings& settings) {
+    constexpr std::array<double, 6> STEPS = {0.25, 0.33, 0.5, 0.67, 0.75, 1.0};
+    const double scale = settings.number(SCALE_ROW);
+    if (ImGui::BeginCombo("scale", fmt::format("{:.0f} %", 100.0 * scale).c_str())) {
+        for (const double step : STEPS) {
+            if (ImGui::Selectable(fmt::format("{:.0f} %", 100.0 * step).c_str(), step == scale))
+                settings.set_number(SCALE_ROW, step);
         }
         ImGui::EndCombo();
     }
-    add_tooltip("Width and height of the rendered picture, relative to the window");
+    add_tooltip("Width and height of what is rendered, relative to the window");
 }
 
 void draw_picture_section(ViewerState& state, const ViewerFacts& facts) {
@@ -87,7 +91,7 @@ void draw_picture_section(ViewerState& state, const ViewerFacts& facts) {
     if (ImGui::SliderFloat("exposure", &state.exposure_ev, -20.0f, 20.0f, "%.2f EV"))
         state.auto_exposure = false;
     add_tooltip("Stops: radiance is multiplied by 2^EV before tone mapping");
-    draw_resolution_combo(state.resolution_percent);
+    draw_scale_combo(state.settings);
     ImGui::InputScalar("seed", ImGuiDataType_U32, &state.seed);
     add_tooltip("Seed of all random numbers");
 }
@@ -225,7 +229,7 @@ PanelActions draw_panel(ViewerState& state, const ViewerFacts& facts) {
     draw_headline(facts);
     // What is seen comes first: its place does not depend on which settings apply.
     draw_picture_section(state, facts);
-    if (begin_section("Settings")) draw_settings(facts.settings, state.settings);
+    if (begin_section("Settings")) draw_settings(facts.settings, SCALE_ROW, state.settings);
     draw_camera_section(state, facts, actions);
     draw_animation_section(state, facts);
     draw_cost_section(facts);

@@ -20,7 +20,6 @@ struct ViewerState {
     bool auto_exposure = true;
     float exposure_ev = 0.0f;  // automatic: follows the picture
     std::uint32_t seed = 0;
-    int resolution_percent = 100;  // of the window's width and height
     bool playing = false;
     double time_s = 0.0;
     float animation_speed = 1.0f;

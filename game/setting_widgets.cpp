@@ -31,9 +31,9 @@ void draw_number(const SettingInfo& row, Settings& settings) {
 
 }  // namespace
 
-void draw_settings(const std::vector<SettingInfo>& rows, Settings& settings) {
+void draw_settings(const std::vector<SettingInfo>& rows, const std::string& elsewhere, Settings& settings) {
     for (const SettingInfo& row : rows) {
-        if (!settings.applies(row.name)) continue;
+        if (row.name == elsewhere || !settings.applies(row.name)) continue;
         if (row.choices.empty()) {
             draw_number(row, settings);
         } else {

@@ -9,7 +9,8 @@
 namespace game {
 
 // A combo for a choice, a slider for a number, for each row that applies; its sentence is the tooltip.
-void draw_settings(const std::vector<SettingInfo>& rows, Settings& settings);
+// The row `elsewhere` has a widget of its own.
+void draw_settings(const std::vector<SettingInfo>& rows, const std::string& elsewhere, Settings& settings);
 
 // Shows `text` while the mouse rests on the last widget.
 void add_tooltip(const std::string& text);

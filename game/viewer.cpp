@@ -57,7 +57,6 @@ Viewer::Viewer(Window& window, Scene scene, const ViewerOptions& options)
     state_.auto_exposure = !options.exposure_ev;
     state_.exposure_ev = options.exposure_ev.value_or(0.0f);
     state_.seed = options.seed;
-    state_.resolution_percent = options.resolution_percent;
     state_.playing = scene_.duration_s() > 0.0 && options.time_s < 0.0;
     state_.time_s = std::max(0.0, options.time_s);
     posed_time_s_ = options.time_s;
@@ -119,9 +118,7 @@ void Viewer::make_view(const Size& size) {
 
 void Viewer::follow_window_size() {
     const Size window = window_.framebuffer_size();
-    const int percent = state_.resolution_percent;
-    const Size size = {std::max(1, window.width_px * percent / 100),
-                       std::max(1, window.height_px * percent / 100)};
+    const Size size = {std::max(1, window.width_px), std::max(1, window.height_px)};
     if (!view_) return make_view(size);
     if (size != wanted_size_) {
         wanted_size_ = size;

@@ -25,8 +25,7 @@ struct ViewerOptions {
     std::string view = "radiance";     // which display view
     std::optional<float> exposure_ev;  // nullopt: automatic
     std::uint32_t seed = 0;
-    double time_s = -1.0;  // for which the scene was loaded; < 0: its animations play
-    int resolution_percent = 50;
+    double time_s = -1.0;              // for which the scene was loaded; < 0: its animations play
     int threads = 0;                   // as for EngineOptions
     int frames = 0;                    // quit after so many; 0: never
     std::filesystem::path screenshot;  // written before quitting; empty: none

@@ -6,8 +6,8 @@
 
 namespace tarn {
 
-// RGBA32F, W sr^-1 m^-2: emission, and the light that surfaces reflect. What is not finite becomes black and
-// is counted. `indirect`: none where the plan has none.
+// RGBA32F, W sr^-1 m^-2: emission, and the light that surfaces reflect. What is not finite becomes black with
+// w = 0 (else 1) and is counted. `indirect`: none where the plan has none.
 Picture composite(const FrameContext& frame, const GBuffer& gbuffer, const ReflectedLight& direct,
                   const ReflectedLight& indirect);
 

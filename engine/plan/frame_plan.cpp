@@ -93,6 +93,11 @@ std::vector<PlannedPass> list_passes(const DenoisePlan& plan) {
     };
 }
 
+std::vector<PlannedPass> list_passes(const AntialiasPlan& plan) {
+    return {{"antialias", plan.runs, "each frame joins the picture of the last ones"},
+            {"enlarge", plan.enlarges && !plan.runs, "less is rendered than is shown"}};
+}
+
 }  // namespace
 
 DirectPlan plan_direct(const DirectSettings& settings) {
@@ -144,6 +149,20 @@ DenoisePlan plan_denoise(const RenderSettings& settings, const SceneFeatures& fe
     return plan;
 }
 
+// Places in a pixel of the picture, 64 of them, and as many times more as it has pixels for one that is
+// rendered: a power of two, so that they are even (find_jitter).
+AntialiasPlan plan_antialias(const RenderSettings& settings) {
+    constexpr int PLACES = 64;
+    const double scale = settings.antialias.scale;
+    AntialiasPlan plan;
+    plan.runs = settings.antialias.runs() && settings.direct.debug_view == DebugView::NONE;
+    plan.enlarges = scale < 1.0;
+    if (!plan.runs) return plan;
+    plan.jitter_count = PLACES;
+    while (plan.jitter_count * scale * scale < PLACES) plan.jitter_count *= 2;
+    return plan;
+}
+
 FramePlan make_plan(const FeatureSurvey& survey, const RenderSettings& settings) {
     FramePlan plan;
     plan.features = survey.features;
@@ -151,6 +170,7 @@ FramePlan make_plan(const FeatureSurvey& survey, const RenderSettings& settings)
     plan.direct = plan_direct(settings.direct);
     plan.indirect = plan_indirect(settings.indirect);
     plan.denoise = plan_denoise(settings, plan.features);
+    plan.antialias = plan_antialias(settings);
     plan.composite.indirect = plan.indirect.runs && !plan.denoise.runs;
     const DebugView view = plan.direct.view;
     if (plan.indirect.keeps_samples && shows_paths(view)) {
@@ -165,6 +185,7 @@ FramePlan make_plan(const FeatureSurvey& survey, const RenderSettings& settings)
     for (PlannedPass& pass : list_passes(plan.direct)) plan.passes.push_back(std::move(pass));
     for (PlannedPass& pass : list_passes(plan.indirect)) plan.passes.push_back(std::move(pass));
     for (PlannedPass& pass : list_passes(plan.denoise)) plan.passes.push_back(std::move(pass));
+    for (PlannedPass& pass : list_passes(plan.antialias)) plan.passes.push_back(std::move(pass));
     return plan;
 }
 

@@ -88,6 +88,12 @@ struct DenoisePlan {
     }
 };
 
+struct AntialiasPlan {
+    bool runs = false;
+    bool enlarges = false;
+    int jitter_count = 1;  // frames after which the places in a pixel come again
+};
+
 // A pass that this frame runs or leaves out.
 struct PlannedPass {
     std::string name;  // as in the timings
@@ -101,6 +107,7 @@ struct FramePlan {
     DirectPlan direct;
     IndirectPlan indirect;
     DenoisePlan denoise;
+    AntialiasPlan antialias;
     CompositeVariant composite;
     std::vector<PlannedPass> passes;  // those that not every frame runs
 
@@ -113,6 +120,9 @@ DirectPlan plan_direct(const DirectSettings& settings);
 IndirectPlan plan_indirect(const IndirectSettings& settings);
 // Debug views are shown as they are.
 DenoisePlan plan_denoise(const RenderSettings& settings, const SceneFeatures& features);
+
+// Debug views too.
+AntialiasPlan plan_antialias(const RenderSettings& settings);
 
 FramePlan make_plan(const FeatureSurvey& survey, const RenderSettings& settings);
 

@@ -294,6 +294,24 @@ std::vector<CompositeVariant> CompositeVariant::all() {
     return {{false, false}, {false, true}, {true, false}, {true, true}, {true, true, true}};
 }
 
+Defines AntialiasVariant::defines() const {
+    Defines result;
+    if (at_rest) result.emplace_back("TARN_AT_REST");
+    if (enlarges) result.emplace_back("TARN_ENLARGE");
+    if (mean == AntialiasMean::DISPLAY) result.emplace_back("TARN_DISPLAY_MEAN");
+    return result;
+}
+
+std::vector<AntialiasVariant> AntialiasVariant::all() {
+    std::vector<AntialiasVariant> result;
+    for (const AntialiasMean mean : {AntialiasMean::RADIANCE, AntialiasMean::DISPLAY}) {
+        for (const bool at_rest : {false, true}) {
+            for (const bool enlarges : {false, true}) result.push_back({at_rest, enlarges, mean});
+        }
+    }
+    return result;
+}
+
 Defines DisplayVariant::defines() const {
     constexpr std::array<const char*, DISPLAY_VIEW_COUNT> DEFINES = {
         "TARN_VIEW_RADIANCE",       "TARN_VIEW_LUMINANCE",         "TARN_VIEW_ALBEDO",
@@ -337,6 +355,7 @@ std::vector<ShaderFamily> shader_families() {
             family_of<DenoiseAccumulateVariant>(),
             family_of<DenoiseFilterVariant>(),
             family_of<CompositeVariant>(),
+            family_of<AntialiasVariant>(),
             family_of<EnlargeVariant>(),
             family_of<ExposureVariant>(),
             family_of<DisplayVariant>()};

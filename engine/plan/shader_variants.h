@@ -256,6 +256,16 @@ struct ExposureVariant : PlainVariant<ExposureVariant> {
     static constexpr bool IS_OF_SCENE = false;
     static constexpr const char* PATH = "exposure";
 };
+struct AntialiasVariant {
+    static constexpr const char* PATH = "antialias";
+    static constexpr bool IS_OF_SCENE = true;
+    bool at_rest = false;   // nothing has moved or changed since the last frame
+    bool enlarges = false;  // the picture is larger than what is rendered
+    AntialiasMean mean = AntialiasMean::RADIANCE;
+    Defines defines() const;
+    static std::vector<AntialiasVariant> all();
+};
+
 struct EnlargeVariant : PlainVariant<EnlargeVariant> {
     static constexpr bool IS_OF_SCENE = false;
     static constexpr const char* PATH = "enlarge";

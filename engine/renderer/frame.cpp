@@ -2,6 +2,7 @@
 // values and returns values; what the next frame finds is what `history_` keeps.
 #include <utility>
 
+#include "passes/antialias/antialias.h"
 #include "passes/composite.h"
 #include "passes/denoise/light_changes.h"
 #include "passes/direct/brdf_candidates.h"
@@ -49,7 +50,7 @@ Renderer::Values Renderer::record_frame(const FrameContext& frame, const FrameIn
         const Picture changes = samples ? compare_light(frame, gbuffer, *samples) : nullptr;
         direct = denoise(frame, gbuffer, {direct, std::exchange(indirect, {}), changes});
     }
-    const Picture radiance = enlarge(frame, composite(frame, gbuffer, direct, indirect));
+    const Picture radiance = finish(frame, gbuffer, composite(frame, gbuffer, direct, indirect));
     Picture display;
     if (input.display) display = show(frame, *input.display, radiance, gbuffer);
     history_.surfaces.keep(frame.frame, gbuffer.surfaces);
@@ -82,6 +83,18 @@ ReflectedLight Renderer::denoise(const FrameContext& frame, const GBuffer& gbuff
     const ReflectedLight light = denoiser_.record(frame, gbuffer, noisy, find_previous_light(frame), kept);
     history_.denoised.keep(frame.frame, std::move(kept));
     return light;
+}
+
+// At the size of what is shown.
+Picture Renderer::finish(const FrameContext& frame, const GBuffer& gbuffer, const Picture& radiance) {
+    if (!frame.plan.antialias.runs) return enlarge(frame, radiance);
+    KeptPicture kept{nullptr, frame.settings};
+    kept.settings.antialias.scale = 1.0;  // the picture has its size at every scale
+    auto previous = find_previous(frame, history_.picture);
+    if (previous && previous->value().settings != kept.settings) previous.reset();
+    kept.picture = antialias(frame, gbuffer, radiance, previous);
+    history_.picture.keep(frame.frame, kept);
+    return kept.picture;
 }
 
 Picture Renderer::show(const FrameContext& frame, const DisplayInput& input, const Picture& radiance,

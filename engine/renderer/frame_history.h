@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "frame/history.h"
+#include "passes/antialias/antialias.h"
 #include "passes/denoise/denoise.h"
 #include "passes/exposure.h"
 #include "passes/gbuffer.h"
@@ -27,8 +28,19 @@ struct FrameHistory {
     History<CacheCells> cache_cells;
     History<Surfaces> coarse_surfaces;  // of indirect light on a coarse picture
     History<KeptLight> denoised;
+    History<KeptPicture> picture;  // of the size of the output
 
     void forget() { *this = {}; }
+    // All but what is shown, as where frames get another size. Rays and camera stay those of the last frame.
+    void forget_frame() {
+        FrameHistory kept;
+        kept.rays = rays;
+        kept.camera = camera;
+        kept.jitter_px = jitter_px;
+        kept.exposure = exposure;
+        kept.picture = picture;
+        *this = std::move(kept);
+    }
 };
 
 // What the last frame saw, where this one follows it.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "noise/blue_noise.h"
+#include "passes/antialias/jitter.h"
 #include "passes/indirect/coarse.h"
 #include "shared/math/random.h"
 
@@ -39,7 +40,8 @@ Renderer::Renderer(const World& world, const RayTracer& tracer, int width_px, in
                    Defines extra_defines)
     : world_(world),
       tracer_(tracer),
-      size_px_(width_px, height_px),
+      output_px_(width_px, height_px),
+      size_px_(output_px_),
       extra_defines_(std::move(extra_defines)),
       changes_{world.is_animated, world.is_animated},
       surveyed_lights_(world.lights.order_revision),
@@ -106,13 +108,26 @@ FrameBlock Renderer::make_frame_block(const FrameInput& input) const {
     block.frame_history =
         glm::uvec4(gpu_scene_.previous_first_instance(), gpu_scene_.lights().previous_first_row(),
                    gpu_scene_.lights().remap_first_row(), gpu_scene_.have_materials_changed() ? 1u : 0u);
-    block.frame_jitter = glm::vec4(input.jitter_px, history_.jitter_px);
+    block.frame_jitter = glm::vec4(find_jitter_px(input), history_.jitter_px);
     block.frame_tables =
         glm::uvec4(gpu_light_tree_.node_count(), gpu_scene_.lights().instance_lookup_first_row(),
                    gpu_scene_.lights().slot_lookup_first_row(), 0u);
     block.frame_full = glm::uvec4(size_px_, 1u, 0u);
     block.frame_offset = glm::uvec4(0u);
     return block;
+}
+
+// Whatever has the size of the frame is no history for one of another size; the picture is.
+void Renderer::choose_size(const RenderSettings& settings) {
+    const glm::dvec2 wanted = glm::round(glm::dvec2(output_px_) * settings.antialias.scale);
+    const glm::ivec2 size_px = glm::max(glm::ivec2(wanted), glm::ivec2(1));
+    if (size_px == size_px_) return;
+    size_px_ = size_px;
+    history_.forget_frame();
+}
+
+glm::vec2 Renderer::find_jitter_px(const FrameInput& input) const {
+    return input.jitter_px + find_jitter(input.frame, plan_.antialias.jitter_count);
 }
 
 void Renderer::upload_frame_blocks(const FrameInput& input) {
@@ -125,16 +140,16 @@ void Renderer::upload_frame_blocks(const FrameInput& input) {
 
 FrameOutput Renderer::render(const FrameInput& input) {
     plan_ = make_plan(survey_, input.settings);
+    choose_size(input.settings);
     recorder_.begin();
     if (plan_.has_light_tree()) fit_light_tree();  // before the frame block, which counts its nodes
     upload_frame_blocks(input);
     gpu_scene_.bind(recorder_);
 
     RayCounts rays;
-    FrameContext frame{
-        recorder_, programs_,      tracer_,        counters_, rays,
-        plan_,     input.settings, scene_defines_, size_px_,  input.output_px.value_or(size_px_)};
-    frame.jitter_px = input.jitter_px;
+    FrameContext frame{recorder_, programs_,      tracer_,        counters_, rays,
+                       plan_,     input.settings, scene_defines_, size_px_,  output_px_};
+    frame.jitter_px = find_jitter_px(input);
     frame.frame = input.frame;
     frame.seed = input.seed;
     const bool follows = history_.rays && input.frame == history_.rays->key.frame + 1;
@@ -150,7 +165,7 @@ FrameOutput Renderer::render(const FrameInput& input) {
     radiance_ = values.radiance;
     gpu_scene_.advance(world_);
     history_.camera = input.camera;
-    history_.jitter_px = input.jitter_px;
+    history_.jitter_px = frame.jitter_px;
     history_.rays = PreviousRays{tracer_.geometry_revision(), {input.frame, input.seed, RAY_SHADOW}};
     return {*radiance_,  values.display, values.gbuffer,       timings,
             rays.shadow, rays.closest,   gbuffer_.statistics()};
@@ -183,6 +198,7 @@ std::map<std::string, std::uint64_t> Renderer::read_counters() const {
             {"bad_cache", values[COUNTER_BAD_CACHE]},
             {"cache_clamped", values[COUNTER_CACHE_CLAMPED]},
             {"cache_full", values[COUNTER_CACHE_FULL]},
+            {"bad_picture", values[COUNTER_BAD_PICTURE]},
             {"rejected_rays", rejected_rays_}};
 }
 

@@ -40,8 +40,8 @@ struct FrameInput {
     std::uint32_t seed = 0;
     RenderSettings settings;
     // Where in a pixel its ray goes through, from the centre, pixels; within +-0.5 pixels stay what they are.
+    // Added to where antialiasing samples.
     glm::vec2 jitter_px{0.0f};
-    std::optional<glm::ivec2> output_px;  // of radiance and display; none: as large as it is drawn
     std::optional<DisplayInput> display;  // none: nothing is shown
 };
 
@@ -60,7 +60,8 @@ class Renderer {
   public:
     // Throws Error when the world does not fit the driver's limits. Any number of renderers may look at one
     // world, each when it likes. `world` and `tracer` must outlive the renderer. `extra_defines` reach every
-    // shader of the scene: tests plant mistakes with them (TARN_PLANT_*).
+    // shader of the scene: tests plant mistakes with them (TARN_PLANT_*). The size is that of the pictures;
+    // the settings may render less (AntialiasSettings::scale).
     Renderer(const World& world, const RayTracer& tracer, int width_px, int height_px,
              Defines extra_defines = {});
 
@@ -87,8 +88,8 @@ class Renderer {
 
     // Of the latest frame.
     const FramePlan& plan() const { return plan_; }
-    int width_px() const { return size_px_.x; }
-    int height_px() const { return size_px_.y; }
+    int width_px() const { return output_px_.x; }
+    int height_px() const { return output_px_.y; }
 
   private:
     struct Values {
@@ -114,6 +115,9 @@ class Renderer {
     ReflectedLight denoise(const FrameContext& frame, const GBuffer& gbuffer, const NoisyLight& noisy);
     Picture show(const FrameContext& frame, const DisplayInput& input, const Picture& radiance,
                  const GBuffer& gbuffer);
+    Picture finish(const FrameContext& frame, const GBuffer& gbuffer, const Picture& radiance);
+    void choose_size(const RenderSettings& settings);
+    glm::vec2 find_jitter_px(const FrameInput& input) const;
     void fit_light_tree();
     const RowBuffer* find_blue_noise();
     const RowBuffer* find_light_tree(bool is_drawn_from) const {
@@ -125,7 +129,8 @@ class Renderer {
 
     const World& world_;
     const RayTracer& tracer_;
-    glm::ivec2 size_px_;
+    glm::ivec2 output_px_;
+    glm::ivec2 size_px_;  // of what is rendered
     Defines extra_defines_;
     ChangeHistory changes_;
     FeatureSurvey survey_;

@@ -21,6 +21,8 @@ struct DenoiseSettings {
 
     bool runs() const { return mode != DenoiseMode::OFF; }
     bool knows_variance() const { return mode == DenoiseMode::SVGF || mode == DenoiseMode::SVGF_STATIC; }
+
+    bool operator==(const DenoiseSettings&) const = default;
 };
 
 }  // namespace tarn

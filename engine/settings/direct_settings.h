@@ -58,6 +58,8 @@ struct DirectSettings {
     }
     // Independent samples a pixel and frame; reuse keeps one.
     int sample_count() const { return reuses() ? 1 : samples; }
+
+    bool operator==(const DirectSettings&) const = default;
 };
 
 }  // namespace tarn

@@ -51,6 +51,8 @@ struct IndirectSettings {
 
     bool runs() const { return mode != IndirectMode::OFF; }
     bool uses_restir() const { return mode == IndirectMode::RESTIR; }
+
+    bool operator==(const IndirectSettings&) const = default;
 };
 
 }  // namespace tarn

@@ -43,6 +43,8 @@ struct ReuseSettings {
         return reuses_space() && (mis == Mis::BALANCE || mis == Mis::PAIRWISE) &&
                (traces_in_mis() || final_visibility != FinalVisibility::TRACED);
     }
+
+    bool operator==(const ReuseSettings&) const = default;
 };
 
 }  // namespace tarn

@@ -30,6 +30,11 @@ struct DenoisePart {
     const DenoiseSettings& operator()(const RenderSettings& s) const { return s.denoise; }
 };
 
+struct AntialiasPart {
+    AntialiasSettings& operator()(RenderSettings& s) const { return s.antialias; }
+    const AntialiasSettings& operator()(const RenderSettings& s) const { return s.antialias; }
+};
+
 void add_direct_rows(std::vector<Setting>& table) {
     using S = DirectSettings;
     SettingRows<DirectPart> rows(table, "");
@@ -212,6 +217,24 @@ void add_denoise_rows(std::vector<Setting>& table) {
                 63);
 }
 
+void add_antialias_rows(std::vector<Setting>& table) {
+    using S = AntialiasSettings;
+    SettingRows<AntialiasPart> rows(table, "");
+    rows.choose("antialias",
+                "Smooth edges and fine texture: not at all, or over time (TAA): each frame samples another "
+                "place of each pixel and joins the picture of the last ones",
+                &S::mode, {"off", "taa"})
+        .number("scale", "x",
+                "Width and height of what is rendered, as a share of the picture's; the picture is enlarged, "
+                "by bilinear interpolation or by antialias=taa, which joins the samples of several frames",
+                &S::scale, 0.25, 1);
+    rows.where(&S::runs).choose(
+        "antialias-mean",
+        "What a pixel is the mean of: radiance, which keeps all energy, or radiance as the display shows it, "
+        "which smooths the edges of lamps too",
+        &S::mean, {"radiance", "display"});
+}
+
 void add_indirect_target_row(std::vector<Setting>& table) {
     SettingRows<IndirectPart>(table, "")
         .where([](const RenderSettings& s) {
@@ -265,6 +288,7 @@ const std::vector<Setting>& setting_table() {
         add_indirect_target_row(rows);
         add_validation_row(rows);
         add_denoise_rows(rows);
+        add_antialias_rows(rows);
         add_view_rows(rows);
         return rows;
     }();

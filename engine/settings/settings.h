@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "settings/antialias_settings.h"
 #include "settings/denoise_settings.h"
 #include "settings/direct_settings.h"
 #include "settings/indirect_settings.h"
@@ -16,6 +17,9 @@ struct RenderSettings {
     DirectSettings direct;
     IndirectSettings indirect;
     DenoiseSettings denoise;
+    AntialiasSettings antialias;
+
+    bool operator==(const RenderSettings&) const = default;
 };
 
 // One row of the table. Values travel as doubles; a choice is the index into `choices`.

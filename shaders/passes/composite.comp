@@ -34,9 +34,7 @@ void main() {
 #ifndef TARN_LIGHT_ALONE
     radiance += load_layer(pixel, LAYER_EMISSION).xyz;
 #endif
-    if (!is_finite3(radiance)) {
-        count_event(COUNTER_BAD_RADIANCE);
-        radiance = vec3(0.0f);
-    }
-    imageStore(out_radiance, pixel, vec4(radiance, 1.0f));
+    bool usable = is_finite3(radiance);
+    if (!usable) count_event(COUNTER_BAD_RADIANCE);
+    imageStore(out_radiance, pixel, usable ? vec4(radiance, 1.0f) : vec4(0.0f));
 }

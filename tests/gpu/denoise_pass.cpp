@@ -229,5 +229,37 @@ TEST(DenoisePass, AHistoryThatIsNotSanitizedIsFound) {
     EXPECT_GT(find_trace(1e6f, 8, {"TARN_PLANT_UNSANITIZED"}).error, 1.0);
 }
 
+// ---- Jitter
+
+// A shadow's edge on a wall that the camera sees at rest, without noise: how far its picture after many
+// frames is from what the pixels see in the mean, at most over the rows.
+double error_of_shadow(int jitter_count, const Defines& planted = {}) {
+    constexpr int FRAMES = 48;
+    DenoiseStage stage(SIZE_PX);
+    stage.settings.denoise.steps = 1;
+    stage.jitter_count = jitter_count;
+    stage.plant(planted);
+    const auto light_of = [](const Met& met) { return glm::vec2(met.position.x > 0.3f ? 3.0f : 1.0f); };
+    std::vector<double> seen(std::size_t(SIZE_PX.x * SIZE_PX.y), 0.0);
+    Denoised found;
+    for (int frame = 0; frame < FRAMES; ++frame) {
+        found = stage.render(meet_wall, [&](const glm::ivec2&, const Met& met) { return light_of(met); });
+        for (std::size_t i = 0; i < seen.size(); ++i) seen[i] += light_of(found.met[i]).x / FRAMES;
+    }
+    double sum = 0.0;
+    for (std::size_t i = 0; i < seen.size(); ++i) sum += std::abs(double(found.light[i].x) - seen[i]);
+    return sum / SIZE_PX.y;
+}
+
+TEST(DenoisePass, AtRestAHistoryWithJitterBlursNoShadow) {
+    fmt::print("{} {} {}\n", error_of_shadow(1), error_of_shadow(16),
+               error_of_shadow(16, {"TARN_PLANT_JITTERED_HISTORY"}));
+    EXPECT_LT(error_of_shadow(16), 1.5);
+}
+
+TEST(DenoisePass, AHistoryThatIsInterpolatedAtTheJitterIsFound) {
+    EXPECT_GT(error_of_shadow(16, {"TARN_PLANT_JITTERED_HISTORY"}), 1.5);
+}
+
 }  // namespace
 }  // namespace tarn

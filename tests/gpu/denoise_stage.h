@@ -6,6 +6,7 @@
 #include <map>
 
 #include "gpu/pass_context.h"
+#include "passes/antialias/jitter.h"
 #include "passes/denoise/denoise.h"
 #include "shared/math/brdf.h"
 #include "shared/math/packing.h"
@@ -53,7 +54,8 @@ class DenoiseStage {
     }
 
     RenderSettings settings;
-    float alpha = 0.5f;  // GGX width of all surfaces
+    float alpha = 0.5f;    // GGX width of all surfaces
+    int jitter_count = 1;  // places in a pixel
 
     void plant(const Defines& defines) { context_.plant(defines); }
     void move_camera(const glm::vec3& by) { camera_.position += by; }
@@ -61,6 +63,7 @@ class DenoiseStage {
     // The next frame. What it kept is the history of the one after it.
     Denoised render(const SceneOf& scene, const LightOf& light) {
         plan_.denoise = plan_denoise(settings, {});
+        jitter_px_ = find_jitter(frame_, jitter_count);
         context_.recorder().begin();
         Denoised result;
         const GBuffer gbuffer = write_surfaces(scene, result.met);
@@ -75,6 +78,7 @@ class DenoiseStage {
         history_.keep(frame_, kept);
         context_.recorder().end();
         previous_camera_ = camera_;
+        previous_jitter_px_ = jitter_px_;
         ++frame_;
         read_light(denoised, result);
         return result;
@@ -86,8 +90,8 @@ class DenoiseStage {
 
   private:
     glm::vec3 direction(int x, int y) const {
-        const float u = 2.0f * (float(x) + 0.5f) / float(size_px_.x) - 1.0f;
-        const float v = 1.0f - 2.0f * (float(y) + 0.5f) / float(size_px_.y);
+        const float u = 2.0f * (float(x) + 0.5f + jitter_px_.x) / float(size_px_.x) - 1.0f;
+        const float v = 1.0f - 2.0f * (float(y) + 0.5f + jitter_px_.y) / float(size_px_.y);
         return glm::normalize(camera_.forward + camera_.right * u + camera_.up * v);
     }
 
@@ -135,6 +139,7 @@ class DenoiseStage {
         block.frame_previous_forward = glm::vec4(previous_camera_.forward, 0.0f);
         block.frame_size = glm::uvec4(size_px_, frame_, 0u);
         block.frame_full = glm::uvec4(size_px_, 1u, 0u);
+        block.frame_jitter = glm::vec4(jitter_px_, previous_jitter_px_);
         block_.upload(0, std::span<const FrameBlock>(&block, 1));
         context_.recorder().bind_frame_block(block_);
     }
@@ -150,6 +155,8 @@ class DenoiseStage {
     glm::ivec2 size_px_;
     CameraRecord camera_{};
     CameraRecord previous_camera_{};
+    glm::vec2 jitter_px_{0.0f};
+    glm::vec2 previous_jitter_px_{0.0f};
     std::vector<float> shares_;
     FramePlan plan_;
     Denoiser denoiser_;

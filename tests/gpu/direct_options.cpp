@@ -240,6 +240,7 @@ TEST(Settings, EachOneChangesThePictureWhereItApplies) {
         indirect.reuse.mis_visibility = traces_in_weights;
     }
     bases.emplace_back().denoise.mode = DenoiseMode::SVGF;
+    bases.emplace_back().antialias.mode = AntialiasMode::TAA;
     std::vector<Image> pictures;
     for (const RenderSettings& base : bases) pictures.push_back(render_walk(*scene, base));
     for (const Setting& setting : setting_table()) {

@@ -92,7 +92,7 @@ mkdir -p "$folder"
 cd "$folder"
 
 # Albedo has no noise: what changes there, a person changed.
-"$tarn" view "$scene" --size 640x360 --resolution 100 --view albedo --exposure 2 >log.txt 2>&1 &
+"$tarn" view "$scene" --size 640x360 --scale 1 --view albedo --exposure 2 >log.txt 2>&1 &
 viewer=$!
 wait_for "a window" has_title 'view=albedo'
 window=$(xdotool search --name '^Tarn: ' | head -n 1)
@@ -142,7 +142,7 @@ viewer=
 ((status == 0)) || fail "the viewer ended with $status"
 echo "ok: Escape ends it with 0"
 
-"$tarn" view "$scene" --size 320x180 --resolution 100 --frames 3 --screenshot last.png >>log.txt 2>&1 ||
+"$tarn" view "$scene" --size 320x180 --scale 1 --frames 3 --screenshot last.png >>log.txt 2>&1 ||
     fail "--frames 3 ended with $?"
 [[ $(identify -format '%wx%h' last.png) == 320x180 ]] || fail "--screenshot wrote another size"
 echo "ok: --frames and --screenshot"

@@ -103,6 +103,11 @@ int count_bounces(const std::vector<Method>& methods) {
     return bounces_of(methods.front());
 }
 
+bool any_antialiases(const std::vector<Method>& methods) {
+    return std::any_of(methods.begin(), methods.end(),
+                       [](const Method& method) { return method.settings.antialias.runs(); });
+}
+
 Method parse_method(const std::string& text) {
     const std::size_t colon = text.find(':');
     const std::string name = text.substr(0, colon);

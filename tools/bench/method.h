@@ -32,6 +32,10 @@ std::vector<Method> parse_methods(const std::string& text);
 // Throws Error where they do not agree, since the same reference cannot judge them all.
 int count_bounces(const std::vector<Method>& methods);
 
+// Whether any of them shows the mean over each pixel, so that the reference has to: else it sees pixels'
+// centres.
+bool any_antialiases(const std::vector<Method>& methods);
+
 // The row of the settings table with this name. Throws Error that lists the names.
 const Setting& find_setting(const std::string& name);
 

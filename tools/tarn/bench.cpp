@@ -109,8 +109,9 @@ Json bench_scene(const BenchCommand& command, const BenchPlan& plan, const std::
     machine = session.describe_machine();
     const World& world = session.loaded().world;
     const CameraRecord camera = choose_camera(options.scene, session.loaded().scene, world);
-    const ReferenceSettings reference = truth_settings(options.scene.width, options.scene.height, camera,
-                                                       command.reference_spp, count_bounces(plan.methods));
+    ReferenceSettings reference = truth_settings(options.scene.width, options.scene.height, camera,
+                                                 command.reference_spp, count_bounces(plan.methods));
+    reference.box_pixel_filter = any_antialiases(plan.methods);
 
     const std::string name = std::filesystem::path(scene).stem().string();
     const std::filesystem::path out = command.out;

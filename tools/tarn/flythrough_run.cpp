@@ -180,9 +180,11 @@ class Flyer {
 
     // Nothing where the user interrupts.
     std::optional<Truth> find_truth(int frame) {
-        const ReferenceResult reference = find_reference(
-            session_, truth_settings(renderers_.front()->width_px(), renderers_.front()->height_px(), camera_,
-                                     plan_.reference_spp, count_bounces(plan_.methods)));
+        ReferenceSettings settings =
+            truth_settings(renderers_.front()->width_px(), renderers_.front()->height_px(), camera_,
+                           plan_.reference_spp, count_bounces(plan_.methods));
+        settings.box_pixel_filter = any_antialiases(plan_.methods);
+        const ReferenceResult reference = find_reference(session_, settings);
         if (reference.cancelled) return std::nullopt;
         write_png(out_ / flight_reference_name(frame),
                   display_from_radiance(reference.radiance, *flight_.exposure_ev));

@@ -1,7 +1,5 @@
 #include "renderer_source.h"
 
-#include <algorithm>
-#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace tarn {
@@ -20,23 +18,12 @@ CameraRecord camera_before(const CameraRecord& arrived, const CameraMotion& moti
     return turn_camera(camera, -motion.turn_deg * lead);
 }
 
-namespace {
-
-int scale_size(int size_px, double resolution) {
-    return std::max(1, int(std::lround(size_px * resolution)));
-}
-
-}  // namespace
-
 RendererSource::RendererSource(const World& world, const RayTracer& tracer, int width_px, int height_px)
     : world_(world), tracer_(tracer), width_px_(width_px), height_px_(height_px) {}
 
-Renderer& RendererSource::find_renderer(std::size_t method, double resolution) {
-    std::unique_ptr<Renderer>& renderer = renderers_[{method, resolution}];
-    if (!renderer) {
-        renderer = std::make_unique<Renderer>(world_, tracer_, scale_size(width_px_, resolution),
-                                              scale_size(height_px_, resolution));
-    }
+Renderer& RendererSource::find_renderer(std::size_t method) {
+    std::unique_ptr<Renderer>& renderer = renderers_[method];
+    if (!renderer) renderer = std::make_unique<Renderer>(world_, tracer_, width_px_, height_px_);
     return *renderer;
 }
 
@@ -50,25 +37,20 @@ void RendererSource::set_camera(const CameraRecord& camera, const CameraMotion& 
 }
 
 RenderedFrame RendererSource::render(const FrameRequest& request) {
-    Renderer& renderer = find_renderer(request.method, request.resolution);
+    Renderer& renderer = find_renderer(request.method);
     if (request.starts) renderer.reset_history();
     FrameInput input;
     input.camera = camera_before(camera_, motion_, request.lead);
     input.frame = request.frame;
     input.seed = request.seed;
     input.settings = request.settings;
-    input.output_px = glm::ivec2(width_px_, height_px_);
+    input.settings.antialias.scale *= request.resolution;
     const FrameOutput output = renderer.render(input);
     return {renderer.read_radiance(output.radiance), output.timings, output.shadow_rays.traced};
 }
 
 std::map<std::string, std::uint64_t> RendererSource::read_counters(std::size_t method) {
-    std::map<std::string, std::uint64_t> counts = find_renderer(method, 1.0).read_counters();
-    for (const auto& [key, renderer] : renderers_) {
-        if (key.first != method || key.second == 1.0) continue;
-        for (const auto& [name, count] : renderer->read_counters()) counts[name] += count;
-    }
-    return counts;
+    return find_renderer(method).read_counters();
 }
 
 }  // namespace tarn

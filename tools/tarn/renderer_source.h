@@ -1,10 +1,9 @@
-// The renderer as the benchmark's source of frames: one renderer for each method and resolution, so that each
-// keeps its own history.
+// The renderer as the benchmark's source of frames: one renderer for each method, so that each keeps its own
+// history.
 #pragma once
 
 #include <map>
 #include <memory>
-#include <utility>
 
 #include "bench/sequence.h"
 #include "renderer/renderer.h"
@@ -38,17 +37,17 @@ class RendererSource : public FrameSource {
     RenderedFrame render(const FrameRequest& request) override;
     std::map<std::string, std::uint64_t> read_counters(std::size_t method) override;
 
-    Renderer& renderer(std::size_t method) { return find_renderer(method, 1.0); }
+    Renderer& renderer(std::size_t method) { return find_renderer(method); }
 
   private:
     // Made when it is first asked for, and with it its history.
-    Renderer& find_renderer(std::size_t method, double resolution);
+    Renderer& find_renderer(std::size_t method);
 
     const World& world_;
     const RayTracer& tracer_;
     int width_px_;
     int height_px_;
-    std::map<std::pair<std::size_t, double>, std::unique_ptr<Renderer>> renderers_;  // [method, resolution]
+    std::map<std::size_t, std::unique_ptr<Renderer>> renderers_;  // by method
     CameraRecord camera_{};
     CameraMotion motion_;
 };

@@ -14,6 +14,7 @@ constexpr std::uint32_t FRAMES = 4;
 
 std::vector<std::uint32_t> find_silhouettes(Renderer& renderer, const RayTracer& tracer, FrameInput input) {
     const int width = renderer.width_px(), height = renderer.height_px();
+    input.settings.antialias = {};  // the raster at the pixels' centres
     std::vector<char> differs(std::size_t(width) * std::size_t(height), 0);
     for (input.frame = 0; input.frame < FRAMES; ++input.frame) {
         const auto seen = renderer.render(input).gbuffer.seen->download<glm::uvec2>();

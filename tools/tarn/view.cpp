@@ -12,6 +12,9 @@
 namespace tarn {
 namespace {
 
+// A quarter of the pixels: a window is to follow the hand.
+constexpr double VIEW_SCALE = 0.5;
+
 struct ViewOptions {
     RenderOptions render;
     game::ViewerOptions viewer;
@@ -23,11 +26,7 @@ void add_view_options(CLI::App& command, game::ViewerOptions& options) {
     command.get_option("--context")->description("Where GL comes from: a window comes from glfw alone");
     command.get_option("--exposure")->description("Exposure of the picture, EV (default: automatic)");
     command.remove_option(command.get_option("--json"));
-    command
-        .add_option("--resolution", options.resolution_percent,
-                    "Width and height of the rendered picture, percent of the window's")
-        ->check(CLI::Range(1, 100))
-        ->capture_default_str();
+    command.get_option("--scale")->default_str(fmt::format("{}", VIEW_SCALE));
     const auto parse_view = [&options](const std::string& name) {
         try {
             parse_display_view(name);
@@ -126,7 +125,10 @@ void add_view_command(CLI::App& app) {
     command->footer(
         "W A S D Q E fly, Shift is faster, the wheel changes the speed; drag with the right button to look.\n"
         "Tab: panel. Space: animation. F5: reload shaders. F12: screenshot. Escape: end.");
-    command->callback([options] { run_view(*options); });
+    command->callback([command, options] {
+        if (command->count("--scale") == 0) options->render.settings.antialias.scale = VIEW_SCALE;
+        run_view(*options);
+    });
 }
 
 }  // namespace tarn

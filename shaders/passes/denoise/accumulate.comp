@@ -146,6 +146,22 @@ void add_tap(inout Gathered sum, ivec2 pixel, float weight, Expected e) {
     sum.weights += weights;
 }
 
+// Weight of a tap of the history. `place`: where the surface was; `moved`: how far it has come since, without jitter.
+//
+// A surface that has not moved in the picture keeps the history of its own pixel: interpolated at the difference of two
+// jitters, it would blur with every frame. Its neighbours count where that pixel showed another surface.
+float tap_weight(ivec2 tap, ivec2 pixel, vec2 place, vec2 moved) {
+    vec2 share = 1.0f - abs(vec2(tap) - place);
+    float weight = share.x * share.y;
+#ifndef TARN_PLANT_JITTERED_HISTORY
+    const float STILL_PX = 0.01f;
+    const float NEIGHBOUR = 1e-3f;
+    bool is_still = max(abs(moved.x), abs(moved.y)) < STILL_PX;
+    if (is_still) weight = tap == pixel ? 1.0f : NEIGHBOUR * weight;
+#endif
+    return weight;
+}
+
 Gathered gather_history(ivec2 pixel, ShadingPoint point, vec3 position) {
     Gathered sum = Gathered(vec4(0.0f), vec4(0.0f), vec4(0.0f), vec2(0.0f));
     Expected e = expect(pixel, point, position);
@@ -153,11 +169,11 @@ Gathered gather_history(ivec2 pixel, ShadingPoint point, vec3 position) {
     // What lies far outside has no integer.
     if (!(all(greaterThan(place, vec2(-1.0f))) && all(lessThan(place, vec2(frame_size.xy))))) return sum;
     ivec2 first = ivec2(floor(place));
-    vec2 share = place - vec2(first);
-    add_tap(sum, first, (1.0f - share.x) * (1.0f - share.y), e);
-    add_tap(sum, first + ivec2(1, 0), share.x * (1.0f - share.y), e);
-    add_tap(sum, first + ivec2(0, 1), (1.0f - share.x) * share.y, e);
-    add_tap(sum, first + ivec2(1, 1), share.x * share.y, e);
+    vec2 moved = vec2(pixel) + frame_jitter.xy - (place + frame_jitter.zw);
+    for (int i = 0; i < 4; ++i) {
+        ivec2 tap = first + ivec2(i % 2, i / 2);
+        add_tap(sum, tap, tap_weight(tap, pixel, place, moved), e);
+    }
     return sum;
 }
 

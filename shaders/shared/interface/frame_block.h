@@ -46,6 +46,8 @@ CONSTANT uint COUNTER_BAD_LIGHT_HISTORY = 7u;  // pixels of the denoiser's histo
 CONSTANT uint COUNTER_BAD_CACHE = 8u;          // cached light, or light for the cache, that was not finite
 CONSTANT uint COUNTER_CACHE_CLAMPED = 9u;      // light for the cache beyond what its sums can count
 CONSTANT uint COUNTER_CACHE_FULL = 10u;        // places for which the cache had no cell left
-CONSTANT uint COUNTER_COUNT = 11u;
+CONSTANT uint COUNTER_BAD_PICTURE =
+    11u;  // samples kept out of the picture of the last frames: unusable, or far above all around
+CONSTANT uint COUNTER_COUNT = 12u;
 
 SHARED_END

@@ -76,6 +76,7 @@ void add_study_command(CLI::App& app) {
     add_lag_study(*study);
     add_cache_study(*study);
     add_noise_study(*study);
+    add_crawl_study(*study);
 }
 
 }  // namespace tarn

@@ -22,6 +22,7 @@ void add_fault_study(CLI::App& study);
 void add_lag_study(CLI::App& study);
 void add_cache_study(CLI::App& study);
 void add_noise_study(CLI::App& study);
+void add_crawl_study(CLI::App& study);
 
 // A new folder that goes with the object. Throws Error where none can be made.
 class TemporaryFolder {

@@ -1,0 +1,45 @@
+#include "passes/antialias/antialias.h"
+
+#include <algorithm>
+
+#include "passes/exposure.h"
+#include "shared/interface/bindings.h"
+#include "shared/interface/constants/antialias.h"
+
+namespace tarn {
+namespace {
+
+// Samples that the past counts as while things move: fewer follow changes sooner and show more noise.
+constexpr double STEADY_COUNT = 10.0;
+// A frame at a share of the size has fewer samples for a pixel: the past is to last as long, but long enough
+// to hold one sample of each place.
+constexpr double LEAST_STEADY_COUNT = 4.0;
+constexpr float GREATEST_COUNT = 64.0f;
+
+}  // namespace
+
+Picture antialias(const FrameContext& frame, const GBuffer& gbuffer, const Picture& radiance,
+                  const std::optional<Previous<KeptPicture>>& previous) {
+    const double scale = frame.settings.antialias.scale;
+    AntialiasConstants constants{};
+    constants.steady_count = float(std::max(LEAST_STEADY_COUNT, STEADY_COUNT * scale * scale));
+    constants.greatest_count = GREATEST_COUNT;
+    constants.has_previous = previous ? 1u : 0u;
+    const AntialiasMean mean = frame.settings.antialias.mean;
+    Exposure exposure;
+    if (mean == AntialiasMean::DISPLAY) exposure = find_exposure(frame, radiance, {}, std::nullopt);
+    const Picture picture = frame.recorder.take_picture("antialias", frame.output_px, GL_RGBA32F);
+    PassRecorder pass = frame.pass("antialias");
+    read_gbuffer(pass, gbuffer)
+        .constants(constants)
+        .read(UNIT_PASS_A, radiance)
+        .write_image(0, *picture)
+        .count(BLOCK_COUNTERS, frame.counters);
+    if (previous) pass.read(UNIT_PASS_B, *previous, previous->value().picture);
+    if (exposure) pass.read(UNIT_PASS_C, exposure);
+    const AntialiasVariant variant{!frame.has_moved, frame.output_px != frame.size_px, mean};
+    pass.dispatch(frame.compute(variant), frame.output_px);
+    return picture;
+}
+
+}  // namespace tarn

@@ -1,0 +1,299 @@
+// Antialiasing over time: joins the samples of this frame, each of which lies in another place of its pixel than in the
+// frames before (find_jitter), with the picture of the last frames, which has the size of what is shown.
+//
+// The past is a mean and a count of the samples behind it (w), so that each sample weighs the same and a picture at rest
+// becomes the integral over each pixel: of linear radiance, so that no energy is lost, or of what the display shows, so
+// that edges of lamps are smooth too. The count ends at `greatest_count`.
+//
+// Where things move, the past is read where the nearest surface around the pixel was (edges move with what is in front),
+// by a cubic over the 12 pixels without the corners, kept near the range of the four inner ones: sharp, and little
+// ringing. What the colours of this frame around the pixel do not explain is moved towards their mean until it lies
+// within CLIP deviations (Salvi 2016, in the compressed colours of Karis 2014). At rest nothing of the past is wrong:
+// it is taken as it is.
+//
+// Where less is rendered than is shown, each pixel weighs the samples by their distance from its centre. What no frame
+// has shown before is interpolated.
+//
+// Samples that are no light, or far above all around them and not light of their own surface, are left out and counted.
+//
+// TARN_AT_REST: nothing has moved or changed since the last frame. TARN_ENLARGE: less is rendered than is shown.
+// TARN_DISPLAY_MEAN: the mean is that of compressed colours, of which white is the display's.
+#include "shared/interface/constants/antialias.h"
+#include "lib/frame.glsl"
+#include "lib/gbuffer.glsl"
+#include "lib/counters.glsl"
+#include "lib/previous_camera.glsl"
+#include "shared/math/antialias.h"
+#include "shared/math/denoise.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(binding = UNIT_PASS_A) uniform sampler2D frame_radiance;
+layout(binding = UNIT_PASS_B) uniform sampler2D last_picture;
+#ifdef TARN_DISPLAY_MEAN
+layout(binding = UNIT_PASS_C) uniform usamplerBuffer exposure;
+#endif
+layout(binding = 0, rgba32f) writeonly uniform image2D out_picture;
+
+const int TAPS = 9;
+const int CENTRE = 4;
+
+ivec2 tap_offset(int tap) { return ivec2(tap % 3, tap / 3) - 1; }
+
+ivec2 clamp_to_frame(ivec2 pixel) { return clamp(pixel, ivec2(0), ivec2(frame_size.xy) - 1); }
+
+// Where in a pixel this frame's sample is, from its centre.
+vec2 sample_jitter() {
+#ifdef TARN_PLANT_FLIPPED_JITTER
+    return vec2(frame_jitter.x, -frame_jitter.y);
+#else
+    return frame_jitter.xy;
+#endif
+}
+
+// ---- What the picture is a mean of
+
+#ifdef TARN_DISPLAY_MEAN
+// Radiance near white on the display.
+float white() { return 1.0f / max(uintBitsToFloat(texelFetch(exposure, 0).x), 1e-30f); }
+vec3 to_mean(vec3 radiance) { return compress_colour(radiance, white()); }
+vec3 from_mean(vec3 mean) { return expand_colour(mean, white()); }
+#else
+vec3 to_mean(vec3 radiance) { return radiance; }
+vec3 from_mean(vec3 mean) { return mean; }
+#endif
+
+// ---- The past
+
+// Of a pixel: mean, and samples behind it.
+struct Past {
+    vec3 radiance;
+    float count;
+};
+
+// Pixels of the picture for a pixel of the frame.
+vec2 enlargement() { return vec2(imageSize(out_picture)) / vec2(frame_size.xy); }
+
+// How far the surface that `pixel` shows has come since the last frame, in pixels of the frame. That of the sky, by the
+// camera's turn.
+vec2 find_motion(ivec2 pixel, bool is_sky) {
+    vec3 direction = pixel_ray(pixel).direction;
+    vec3 before = previous_position(pixel);
+    CameraRecord camera = previous_camera();
+    if (is_sky) before = camera.position + (camera.orthographic ? camera.forward : direction);
+#ifdef TARN_PLANT_NO_UNJITTER
+    return vec2(pixel) + 0.5f - find_previous_place(before);
+#else
+    return vec2(pixel) + 0.5f + sample_jitter() - (find_previous_place(before) + frame_jitter.zw);
+#endif
+}
+
+// The motion of what is nearest among the pixels around; an orthographic sky stands still.
+vec2 find_nearest_motion(ivec2 pixel) {
+    const float SKY_DEPTH = 3e38f;
+    CameraRecord camera = frame_camera();
+    float nearest = SKY_DEPTH;
+    ivec2 found = pixel;
+    for (int tap = 0; tap < TAPS; ++tap) {
+        ivec2 around = clamp_to_frame(pixel + tap_offset(tap));
+        vec4 position = load_layer(around, LAYER_POSITION);
+        // Unlit surfaces have a place, the sky has none.
+        bool is_sky = position.w < 0.0f && position.xyz == vec3(0.0f);
+        float depth = is_sky ? SKY_DEPTH : dot(position.xyz - camera.position, camera.forward);
+        if (depth < nearest) {
+            nearest = depth;
+            found = around;
+        }
+    }
+    bool is_sky = nearest == SKY_DEPTH;
+    if (is_sky && camera.orthographic) return vec2(0.0f);
+    return find_motion(found, is_sky);
+}
+
+vec4 load_last(ivec2 pixel) {
+    return texelFetch(last_picture, clamp(pixel, ivec2(0), textureSize(last_picture, 0) - 1), 0);
+}
+
+// The last picture at `place`, in pixels from its corner. The count is that of the pixel there.
+vec4 sample_last(vec2 place) {
+    const float RINGING = 1.3f;  // beyond the four pixels around: crests of waves, but no dark rims of lamps
+    vec2 from_centre = place - 0.5f;
+    ivec2 first = ivec2(floor(from_centre));
+    vec2 share = from_centre - floor(from_centre);
+    vec4 x = cubic_weights(share.x);
+    vec4 y = cubic_weights(share.y);
+    vec4 a = load_last(first), b = load_last(first + ivec2(1, 0));
+    vec4 c = load_last(first + ivec2(0, 1)), d = load_last(first + ivec2(1, 1));
+    vec3 above = x.y * load_last(first + ivec2(0, -1)).xyz + x.z * load_last(first + ivec2(1, -1)).xyz;
+    vec3 below = x.y * load_last(first + ivec2(0, 2)).xyz + x.z * load_last(first + ivec2(1, 2)).xyz;
+    vec3 upper = x.x * load_last(first + ivec2(-1, 0)).xyz + x.y * a.xyz + x.z * b.xyz +
+                 x.w * load_last(first + ivec2(2, 0)).xyz;
+    vec3 lower = x.x * load_last(first + ivec2(-1, 1)).xyz + x.y * c.xyz + x.z * d.xyz +
+                 x.w * load_last(first + ivec2(2, 1)).xyz;
+    // Without the corners the weights do not sum to 1.
+    float corners = (x.x + x.w) * (y.x + y.w);
+    vec3 sum = (y.x * above + y.y * upper + y.z * lower + y.w * below) / (1.0f - corners);
+    vec3 least = min(min(a.xyz, b.xyz), min(c.xyz, d.xyz));
+    vec3 greatest = max(max(a.xyz, b.xyz), max(c.xyz, d.xyz));
+    float count = share.y < 0.5f ? (share.x < 0.5f ? a.w : b.w) : (share.x < 0.5f ? c.w : d.w);
+    return vec4(clamp(sum, least / RINGING, greatest * RINGING), count);
+}
+
+// `nearest`: the frame's pixel whose sample is nearest to `pixel` of the picture.
+Past find_past(ivec2 pixel, ivec2 nearest) {
+    bool usable = has_previous != 0u;
+#ifndef TARN_PLANT_FOREIGN_SIZE
+    usable = usable && textureSize(last_picture, 0) == imageSize(out_picture);
+#endif
+    if (!usable) return Past(vec3(0.0f), 0.0f);
+#ifdef TARN_AT_REST
+    vec4 last = load_last(pixel);
+#else
+    vec2 place = vec2(pixel) + 0.5f - find_nearest_motion(nearest) * enlargement();
+    vec2 size = vec2(textureSize(last_picture, 0));
+    // What lies far outside has no integer.
+    if (!(place.x >= 0.0f && place.y >= 0.0f && place.x < size.x && place.y < size.y))
+        return Past(vec3(0.0f), 0.0f);
+    vec4 last = sample_last(place);
+    last.w = min(last.w, steady_count);
+#endif
+    return Past(last.xyz, last.w);
+}
+
+// ---- The present
+
+// Samples of this frame around a pixel; black where they may not be used.
+struct Around {
+    vec3 radiance[TAPS];
+    float usable[TAPS];  // 1 or 0
+};
+
+// What they come to for the pixel.
+struct Present {
+    vec3 sum;
+    float weight;
+    bool complete;  // whether the nearest sample is a part of it
+};
+
+bool is_usable(vec4 value) {
+#ifdef TARN_PLANT_UNSANITIZED
+    return true;
+#else
+    return value.w > 0.0f && is_usable_light(value.xyz);
+#endif
+}
+
+// Whether light stands out from all around it without being light of the surface itself, such as a small lamp's.
+bool is_stray(ivec2 pixel, vec3 radiance, float greatest_around) {
+#ifdef TARN_PLANT_UNSANITIZED
+    return false;
+#else
+    vec3 reflected = radiance - load_layer(pixel, LAYER_EMISSION).xyz;
+    return exceeds_all_around(radiance, greatest_around) && exceeds_all_around(reflected, greatest_around);
+#endif
+}
+
+Around load_around(ivec2 pixel) {
+    Around around;
+    float greatest = 0.0f, second = 0.0f;
+    int brightest = CENTRE;
+    for (int tap = 0; tap < TAPS; ++tap) {
+        ivec2 place = pixel + tap_offset(tap);
+        ivec2 inside = clamp_to_frame(place);
+        vec4 value = texelFetch(frame_radiance, inside, 0);
+        bool usable = inside == place && is_usable(value);
+        around.usable[tap] = usable ? 1.0f : 0.0f;
+        around.radiance[tap] = usable ? value.xyz : vec3(0.0f);
+        float light = luminance(around.radiance[tap]);
+        second = max(second, min(light, greatest));
+        brightest = light > greatest ? tap : brightest;
+        greatest = max(greatest, light);
+    }
+    ivec2 place = clamp_to_frame(pixel + tap_offset(brightest));
+    if (is_stray(place, texelFetch(frame_radiance, place, 0).xyz, second)) {
+        for (int tap = 0; tap < TAPS; ++tap) {
+            around.usable[tap] = tap == brightest ? 0.0f : around.usable[tap];
+            around.radiance[tap] = tap == brightest ? vec3(0.0f) : around.radiance[tap];
+        }
+    }
+    return around;
+}
+
+// The past, as far as the colours around explain it.
+vec3 clip_past(Past past, Around around) {
+    const float CLIP = 2.5f;  // deviations: less would take more energy from what single frames miss
+    const float LEAST_SIZE = 1e-5f;
+    float key = luminance(around.radiance[CENTRE]) + luminance(past.radiance) + 1e-20f;
+    vec3 sum = vec3(0.0f), squares = vec3(0.0f);
+    float count = 0.0f;
+    for (int tap = 0; tap < TAPS; ++tap) {
+        vec3 colour = compress_colour(around.radiance[tap], key);
+        sum += around.usable[tap] * colour;
+        squares += around.usable[tap] * colour * colour;
+        count += around.usable[tap];
+    }
+    if (count == 0.0f) return past.radiance;
+    vec3 mean = sum / count;
+    vec3 deviation = sqrt(max(squares / count - mean * mean, vec3(0.0f)));
+    vec3 colour = compress_colour(past.radiance, key);
+    float excess = box_excess(colour, mean, CLIP * deviation + LEAST_SIZE);
+    return excess > 1.0f ? expand_colour(mean + (colour - mean) / excess, key) : past.radiance;
+}
+
+// `offset`: from the centre of the picture's pixel to the sample of the middle tap, in pixels of the frame. `known`:
+// samples behind the past.
+Present weigh(Around around, vec2 offset, float known) {
+    Present present = Present(vec3(0.0f), 0.0f, around.usable[CENTRE] > 0.0f);
+#ifdef TARN_ENLARGE
+    const float WIDE = 0.02f;
+    float wide = WIDE * max(0.0f, 1.0f - known);
+#else
+    float wide = present.complete || known > 0.0f ? 0.0f : 1e-3f;
+#endif
+    for (int tap = 0; tap < TAPS; ++tap) {
+        vec2 from_centre = offset + vec2(tap_offset(tap));
+#ifdef TARN_ENLARGE
+        float weight = sample_weight(from_centre * enlargement()) + wide * tent_weight(from_centre);
+#else
+        float weight = (tap == CENTRE ? 1.0f : 0.0f) + wide;
+#endif
+        present.sum += weight * around.usable[tap] * to_mean(around.radiance[tap]);
+        present.weight += weight * around.usable[tap];
+    }
+    return present;
+}
+
+// The one sample of a pixel at rest, where the picture has the frame's size. Looks around it only where it stands out
+// from the past.
+Present load_sample(ivec2 pixel, Past past) {
+    vec4 value = texelFetch(frame_radiance, pixel, 0);
+    bool odd = !is_usable(value) || past.count == 0.0f ||
+               luminance(value.xyz) > STRAY_RATIO * luminance(past.radiance);
+    if (odd) return weigh(load_around(pixel), vec2(0.0f), past.count);
+    return Present(to_mean(value.xyz), 1.0f, true);
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, imageSize(out_picture)))) return;
+    vec2 place = (vec2(pixel) + 0.5f) / enlargement() - sample_jitter();
+    ivec2 nearest = clamp_to_frame(ivec2(floor(place)));
+    Past past = find_past(pixel, nearest);
+#if defined(TARN_AT_REST) && !defined(TARN_ENLARGE)
+    Present present = load_sample(pixel, past);
+#else
+    Around around = load_around(nearest);
+#if !defined(TARN_AT_REST) && !defined(TARN_PLANT_NO_CLIP)
+    past.radiance = clip_past(past, around);
+#endif
+    Present present = weigh(around, vec2(nearest) + 0.5f - place, past.count);
+#endif
+    if (!present.complete) count_event(COUNTER_BAD_PICTURE);
+    float total = past.count + present.weight;
+    // A mean of equal values is that value, to the bit.
+    vec3 before = to_mean(past.radiance);
+    vec3 step = present.sum - present.weight * before;
+    vec3 mean = before + step * ratio_or_zero(1.0f, total);
+    float count = add_to_count(past.count, present.weight, steady_count, greatest_count);
+    imageStore(out_picture, pixel, vec4(from_mean(mean), count));
+}
