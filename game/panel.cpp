@@ -67,6 +67,16 @@ void draw_view_combo(const std::vector<DisplayViewInfo>& views, std::string& cho
     ImGui::EndCombo();
 }
 
+void draw_tone_combo(const std::vector<std::string>& curves, std::string& chosen) {
+    if (ImGui::BeginCombo("tone", chosen.c_str())) {
+        for (const std::string& curve : curves) {
+            if (ImGui::Selectable(curve.c_str(), curve == chosen)) chosen = curve;
+        }
+        ImGui::EndCombo();
+    }
+    add_tooltip("What is brighter than white: cut off, or compressed with its hue kept");
+}
+
 void draw_resolution_combo(int& percent) {
     constexpr std::array<int, 6> STEPS = {25, 33, 50, 67, 75, 100};
     if (ImGui::BeginCombo("resolution", fmt::format("{} %", percent).c_str())) {
@@ -82,11 +92,15 @@ void draw_picture_section(ViewerState& state, const ViewerFacts& facts) {
     if (!begin_section("Picture")) return;
     draw_view_combo(facts.views, state.view);
     ImGui::Checkbox("auto", &state.auto_exposure);
-    add_tooltip("Exposure that maps the log-average luminance to middle grey");
+    add_tooltip(
+        "The middle of the picture becomes middle grey, unless too much would be brighter than white");
     ImGui::SameLine();
     if (ImGui::SliderFloat("exposure", &state.exposure_ev, -20.0f, 20.0f, "%.2f EV"))
         state.auto_exposure = false;
     add_tooltip("Stops: radiance is multiplied by 2^EV before tone mapping");
+    draw_tone_combo(facts.tone_curves, state.tone);
+    ImGui::SliderFloat("glare", &state.glare_strength, 0.0f, 8.0f, "%.2f x", ImGuiSliderFlags_AlwaysClamp);
+    add_tooltip("Light that scatters around what is brighter than white; 1: as much as in an eye");
     draw_resolution_combo(state.resolution_percent);
     ImGui::InputScalar("seed", ImGuiDataType_U32, &state.seed);
     add_tooltip("Seed of all random numbers");

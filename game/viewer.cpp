@@ -56,6 +56,8 @@ Viewer::Viewer(Window& window, Scene scene, const ViewerOptions& options)
     state_.view = options.view;
     state_.auto_exposure = !options.exposure_ev;
     state_.exposure_ev = options.exposure_ev.value_or(0.0f);
+    state_.tone = options.tone;
+    state_.glare_strength = float(options.glare_strength);
     state_.seed = options.seed;
     state_.resolution_percent = options.resolution_percent;
     state_.playing = scene_.duration_s() > 0.0 && options.time_s < 0.0;
@@ -188,6 +190,8 @@ FrameReport Viewer::draw_frame(double dt_s) {
     frame.seed = state_.seed;
     frame.settings = state_.settings;
     frame.display.view = state_.view;
+    frame.display.tone = state_.tone;
+    frame.display.glare_strength = state_.glare_strength;
     if (!state_.auto_exposure) frame.display.exposure_ev = state_.exposure_ev;
     frame.display.elapsed_s = dt_s;
     FrameReport report = view_->draw(frame);

@@ -24,6 +24,8 @@ struct ViewerOptions {
     Settings settings;
     std::string view = "radiance";     // which display view
     std::optional<float> exposure_ev;  // nullopt: automatic
+    std::string tone = "neutral";      // which tone curve
+    double glare_strength = 1.0;
     std::uint32_t seed = 0;
     double time_s = -1.0;  // for which the scene was loaded; < 0: its animations play
     int resolution_percent = 50;

@@ -107,8 +107,10 @@ struct ViewState final : SceneFollower {
         input.seed = frame.seed;
         input.settings = SettingsAccess::values(frame.settings);
         DisplayInput& display = input.display.emplace();
-        display.view = parse_display_view(frame.display.view);
-        display.exposure = {frame.display.exposure_ev, frame.display.elapsed_s};
+        display.choice.view = parse_display_view(frame.display.view);
+        display.choice.look.tone = parse_tone_curve(frame.display.tone);
+        display.choice.look.glare = float(frame.display.glare_strength);
+        display.exposure = {frame.display.exposure_ev, frame.display.elapsed_s, display.choice.look.tone};
         last.reset();
         last.emplace(renderer->render(input));
     }
@@ -227,6 +229,11 @@ std::vector<DisplayViewInfo> Display::list_views() {
     std::vector<DisplayViewInfo> list;
     for (const tarn::DisplayViewInfo& view : display_views()) list.push_back({view.name, view.sentence});
     return list;
+}
+
+std::vector<std::string> Display::list_tone_curves() {
+    const auto names = tone_curve_names();
+    return {names.begin(), names.end()};
 }
 
 }  // namespace tarn::api

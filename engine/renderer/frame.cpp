@@ -88,7 +88,7 @@ Picture Renderer::show(const FrameContext& frame, const DisplayInput& input, con
                        const GBuffer& gbuffer) {
     exposure_ = find_exposure(frame, radiance, input.exposure, find_previous(frame, history_.exposure));
     history_.exposure.keep(frame.frame, exposure_);
-    return show_frame(frame, input.view, radiance, gbuffer, exposure_);
+    return show_frame(frame, input.choice, radiance, gbuffer, exposure_);
 }
 
 ReflectedLight Renderer::light_directly(const FrameContext& frame, const GBuffer& gbuffer) {

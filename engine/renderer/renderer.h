@@ -30,7 +30,7 @@ namespace tarn {
 
 // What a frame shows besides its radiance.
 struct DisplayInput {
-    DisplayView view = DisplayView::RADIANCE;
+    DisplayChoice choice;
     ExposureInput exposure;
 };
 

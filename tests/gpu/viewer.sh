@@ -115,7 +115,7 @@ wait_for "Tab hides the panel" differs before "$panel" 0.05
 xdotool key Tab
 wait_for "Tab brings it back" panel_is_back
 
-choose 191 0 'direct=uniform'
+choose 235 0 'direct=uniform'
 choose 81 0 'view=radiance'
 look with_radiance
 wait_for "the picture of light" shows_something "$picture"

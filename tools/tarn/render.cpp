@@ -52,7 +52,9 @@ void write_picture(const RenderCommand& command, const Image& radiance) {
     if (is_exr(file)) {
         write_exr(file, radiance, describe_picture(command));
     } else {
-        write_png(file, display_from_radiance(radiance, exposure_ev.value_or(auto_exposure_ev(radiance))));
+        const DisplayLook& look = command.options.look;
+        const float ev = exposure_ev.value_or(auto_exposure_ev(radiance, look.tone));
+        write_png(file, display_from_radiance(radiance, ev, look));
     }
 }
 
@@ -100,7 +102,7 @@ void run_render(const RenderCommand& command) {
 void add_render_command(CLI::App& app) {
     CLI::App* sub = app.add_subcommand("render", "Render a picture with the GL renderer");
     auto command = std::make_shared<RenderCommand>();
-    add_render_options(*sub, command->options);
+    add_picture_options(*sub, command->options);
     sub->add_option("--out", command->out,
                     "The picture: .exr (linear radiance) or .png (exposed, tone-mapped)")
         ->required();

@@ -46,7 +46,8 @@ struct Picture {
         return &rgb[3 * (std::size_t(y) * std::size_t(width_px) + std::size_t(x))];
     }
 
-    // The exposure in EV that maps the log-average luminance to middle grey, within +-20.
+    // The exposure in EV that makes the picture's middle a middle grey, or less where more than 2 % of its
+    // pixels, besides a few lamps, would be brighter than white; within +-20.
     float auto_exposure_ev() const;
 
     // Writes the radiance as 32-bit floats. The file is written whole or not at all. Error that names it.
