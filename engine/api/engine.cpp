@@ -38,6 +38,8 @@ FrameReport describe_frame(const FrameOutput& output, const Renderer& renderer) 
     report.closest_rays = output.closest_rays;
     report.triangles_drawn = output.raster.triangles_drawn;
     report.triangles_total = output.raster.triangles_total;
+    report.averaged_frames = renderer.averaged_frames();
+    report.relative_error = renderer.read_relative_error();
     report.counters = renderer.read_counters();
     for (const FeatureReason& entry : renderer.plan().feature_reasons)
         report.plan.push_back({entry.define, entry.reason});
@@ -106,6 +108,7 @@ struct ViewState final : SceneFollower {
         input.frame = frame.number;
         input.seed = frame.seed;
         input.settings = SettingsAccess::values(frame.settings);
+        input.average = frame.average;
         DisplayInput& display = input.display.emplace();
         display.choice.view = parse_display_view(frame.display.view);
         display.choice.look.tone = parse_tone_curve(frame.display.tone);

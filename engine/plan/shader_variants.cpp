@@ -334,6 +334,8 @@ std::vector<ShaderFamily> shader_families() {
             family_of<DenoiseFilterVariant>(),
             family_of<CompositeVariant>(),
             family_of<EnlargeVariant>(),
+            family_of<AverageVariant>(),
+            family_of<AverageErrorVariant>(),
             family_of<ExposureCountVariant>(),
             family_of<ExposureVariant>(),
             family_of<GlareDownVariant>(),

@@ -259,6 +259,14 @@ struct GlareUpVariant : PlainVariant<GlareUpVariant> {
     static constexpr const char* PATH = "glare/up";
 };
 
+struct AverageVariant : PlainVariant<AverageVariant> {
+    static constexpr bool IS_OF_SCENE = false;
+    static constexpr const char* PATH = "average/add";
+};
+struct AverageErrorVariant : PlainVariant<AverageErrorVariant> {
+    static constexpr bool IS_OF_SCENE = false;
+    static constexpr const char* PATH = "average/error";
+};
 struct ExposureCountVariant : PlainVariant<ExposureCountVariant> {
     static constexpr bool IS_OF_SCENE = false;
     static constexpr const char* PATH = "exposure/count";

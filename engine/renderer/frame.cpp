@@ -49,7 +49,11 @@ Renderer::Values Renderer::record_frame(const FrameContext& frame, const FrameIn
         const Picture changes = samples ? compare_light(frame, gbuffer, *samples) : nullptr;
         direct = denoise(frame, gbuffer, {direct, std::exchange(indirect, {}), changes});
     }
-    const Picture radiance = enlarge(frame, composite(frame, gbuffer, direct, indirect));
+    Picture radiance = enlarge(frame, composite(frame, gbuffer, direct, indirect));
+    averaged_frames_ = 1;
+    average_sums_ = nullptr;
+    if (input.average) radiance = average(frame, radiance);
+    history_.picture.keep(frame.frame, radiance);
     Picture display;
     if (input.display) display = show(frame, *input.display, radiance, gbuffer);
     history_.surfaces.keep(frame.frame, gbuffer.surfaces);
@@ -82,6 +86,18 @@ ReflectedLight Renderer::denoise(const FrameContext& frame, const GBuffer& gbuff
     const ReflectedLight light = denoiser_.record(frame, gbuffer, noisy, find_previous_light(frame), kept);
     history_.denoised.keep(frame.frame, std::move(kept));
     return light;
+}
+
+// What moves starts over.
+Picture Renderer::average(const FrameContext& frame, const Picture& radiance) {
+    auto previous = find_previous(frame, history_.averaged);
+    if (frame.has_moved) previous.reset();
+    AveragedPicture average =
+        average_frames(frame, radiance, previous, find_previous(frame, history_.picture));
+    averaged_frames_ = average.averaged.frames;
+    average_sums_ = average.sums;
+    history_.averaged.keep(frame.frame, std::move(average.averaged));
+    return average.shown;
 }
 
 Picture Renderer::show(const FrameContext& frame, const DisplayInput& input, const Picture& radiance,

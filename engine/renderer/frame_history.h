@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "frame/history.h"
+#include "passes/average.h"
 #include "passes/denoise/denoise.h"
 #include "passes/exposure.h"
 #include "passes/gbuffer.h"
@@ -20,6 +21,8 @@ struct FrameHistory {
     glm::vec2 jitter_px{0.0f};
     History<Surfaces> surfaces;
     History<Exposure> exposure;
+    History<AveragedFrames> averaged;
+    History<Picture> picture;                    // as it was shown, or would have been
     std::vector<History<KeptSamples>> direct;    // one a target
     std::vector<History<KeptSamples>> indirect;  // the same
     bool paths_may_be_stale = false;  // something has changed since their lamps were asked for (tests_lamps)

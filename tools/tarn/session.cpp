@@ -45,6 +45,7 @@ void add_preset_option(CLI::App& command, RenderOptions& options) {
     const auto apply = [&options](const std::string& name) {
         try {
             options.settings = find_preset(name).settings;
+            options.preset = name;
             options.names_preset = true;
         } catch (const Error& error) {
             throw CLI::ValidationError(error.what());
@@ -95,6 +96,7 @@ void add_setting_options(CLI::App& command, RenderOptions& options) {
 void add_raw_option(CLI::App& command, RenderOptions& options) {
     const auto apply = [&options](std::int64_t) {
         options.settings = RenderSettings();
+        options.preset = "raw";
         options.names_preset = true;
     };
     command.add_flag_function(

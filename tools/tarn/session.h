@@ -17,7 +17,8 @@ namespace tarn {
 struct RenderOptions {
     SceneOptions scene;
     RenderSettings settings;
-    bool names_preset = false;  // or --raw
+    std::string preset = "clean";  // that the settings started from; "raw": none
+    bool names_preset = false;     // whether the user chose that
     std::string context = "egl";
     std::optional<float> exposure_ev;  // none: automatic
     DisplayLook look = {ToneCurve::NEUTRAL, 1.0f};

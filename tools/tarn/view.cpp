@@ -103,6 +103,7 @@ void run_view(const ViewOptions& options) {
     viewer.scene_name = scene_options.scene.stem().string();
     viewer.camera = choose_public_camera(scene_options.camera, scene);
     viewer.settings = make_public_settings(options.render.settings);
+    viewer.preset = options.render.preset;
     viewer.exposure_ev = options.render.exposure_ev;
     viewer.glare_strength = options.render.look.glare;
     viewer.tone = tone_curve_names()[std::size_t(options.render.look.tone)];
