@@ -54,7 +54,7 @@ TEST_F(LibraryRest, ConvergesAndSaysWhatErrorIsLeft) {
     EXPECT_EQ(many.report.averaged_frames, 64u);
     EXPECT_NEAR(few.report.relative_error / many.report.relative_error, 2.0, 0.4);
     tarn::Picture truth;
-    for (int i = 0; i < 600; ++i) truth = draw(true);
+    for (int i = 0; i < 300; ++i) truth = draw(true);
     // Luminance and RGB, and the truth's own noise: not the same to the digit.
     EXPECT_NEAR(difference(many, truth) / many.report.relative_error, 1.0, 0.35);
 }
