@@ -14,14 +14,14 @@
 namespace tarn {
 namespace {
 
-constexpr glm::ivec2 SIZE_PX(13, 9);
-constexpr std::size_t PIXELS = 13 * 9;
+constexpr glm::ivec2 SIZE_PX(53, 37);  // three levels of glare, all of odd sizes
+constexpr std::size_t PIXELS = 53 * 37;
 
 // Colours from black to far beyond white, and what must not reach a screen.
 std::vector<glm::vec4> make_radiance() {
     std::vector<glm::vec4> texels;
     for (std::size_t i = 0; i < PIXELS; ++i) {
-        const float level = std::exp2(float(i) * 0.15f - 10.0f);
+        const float level = std::exp2(float(i) * (17.5f / float(PIXELS)) - 10.0f);
         texels.push_back({level, level * 0.5f, level * float(i % 3), 1.0f});
     }
     texels[5] = {-1.0f, 0.5f, std::numeric_limits<float>::infinity(), 1.0f};

@@ -63,8 +63,11 @@ TEST_F(ExposurePass, IsThatOfTheCpuAndOfSorting) {
         for (const float range : {0.0f, 4.0f, 20.0f}) {
             std::vector<glm::vec4> texels = draw_radiance(centre, range, 7);
             for (std::size_t i = 0; i < texels.size(); i += 5) texels[i] = glm::vec4(0.0f);
-            texels[1] = glm::vec4(std::numeric_limits<float>::infinity());
-            texels[2] = glm::vec4(std::numeric_limits<float>::quiet_NaN());
+            const float infinite = std::numeric_limits<float>::infinity();
+            texels[1] = glm::vec4(infinite);
+            // Many enough that the rule of white would see them.
+            for (std::size_t i = 2; i < texels.size(); i += 11)
+                texels[i] = glm::vec4(std::numeric_limits<float>::quiet_NaN(), infinite, 1.0f, 1.0f);
             texels[3] = glm::vec4(-1.0f);
             const float ev = read_ev(find(texels, {}));
             EXPECT_NEAR(ev, auto_exposure_ev(to_image(texels)), 1e-3f) << centre << ", " << range;
