@@ -55,7 +55,7 @@ void draw_headline(const ViewerFacts& facts) {
         show_text(fmt::format("at rest: mean of {} frames, error {:.2g} %", report.averaged_frames,
                               100.0 * report.relative_error));
     } else {
-        show_wrapped("moving: single frames", QUIET_COLOUR);
+        show_wrapped("single frames", QUIET_COLOUR);
     }
 }
 
