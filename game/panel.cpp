@@ -51,6 +51,13 @@ void draw_table(const char* id, const Rows& rows, const ShowValue& show_value) {
 void draw_headline(const ViewerFacts& facts) {
     show_text(fmt::format("{}x{}  {:.1f} ms  {:.1f} frames/s", facts.width_px, facts.height_px,
                           facts.cost.frame_ms, facts.frames_per_s));
+    const FrameReport& report = facts.report;
+    if (report.averaged_frames > 1) {
+        show_text(fmt::format("at rest: mean of {} frames, error {:.2g} %", report.averaged_frames,
+                              100.0 * report.relative_error));
+    } else {
+        show_wrapped("single frames", QUIET_COLOUR);
+    }
 }
 
 void draw_view_combo(const std::vector<DisplayViewInfo>& views, std::string& chosen) {
@@ -66,6 +73,35 @@ void draw_view_combo(const std::vector<DisplayViewInfo>& views, std::string& cho
         add_tooltip(view.sentence);
     }
     ImGui::EndCombo();
+}
+
+// "raw": each setting at its default.
+void draw_preset_combo(const std::vector<PresetInfo>& presets, ViewerState& state) {
+    if (ImGui::BeginCombo("preset", state.preset.c_str())) {
+        for (const PresetInfo& preset : presets) {
+            if (ImGui::Selectable(preset.name.c_str(), preset.name == state.preset)) {
+                state.preset = preset.name;
+                state.settings = Settings::preset(preset.name);
+            }
+            add_tooltip(preset.sentence);
+        }
+        if (ImGui::Selectable("raw", state.preset == "raw")) {
+            state.preset = "raw";
+            state.settings = Settings();
+        }
+        ImGui::EndCombo();
+    }
+    add_tooltip("How light is computed: a named set of the settings below");
+}
+
+void draw_tone_combo(const std::vector<std::string>& curves, std::string& chosen) {
+    if (ImGui::BeginCombo("tone", chosen.c_str())) {
+        for (const std::string& curve : curves) {
+            if (ImGui::Selectable(curve.c_str(), curve == chosen)) chosen = curve;
+        }
+        ImGui::EndCombo();
+    }
+    add_tooltip("What is brighter than white: cut off, or compressed with its hue kept");
 }
 
 // In steps: each size needs memory of its own.
@@ -84,16 +120,35 @@ void draw_scale_combo(Settings& settings) {
 
 void draw_picture_section(ViewerState& state, const ViewerFacts& facts) {
     if (!begin_section("Picture")) return;
+    draw_preset_combo(facts.presets, state);
     draw_view_combo(facts.views, state.view);
     ImGui::Checkbox("auto", &state.auto_exposure);
-    add_tooltip("Exposure that maps the log-average luminance to middle grey");
+    add_tooltip(
+        "The middle of the picture becomes middle grey, unless too much would be brighter than white");
     ImGui::SameLine();
     if (ImGui::SliderFloat("exposure", &state.exposure_ev, -20.0f, 20.0f, "%.2f EV"))
         state.auto_exposure = false;
     add_tooltip("Stops: radiance is multiplied by 2^EV before tone mapping");
     draw_scale_combo(state.settings);
+    ImGui::Checkbox("converge at rest", &state.converge);
+    add_tooltip("While camera and scene rest, the mean of fresh, unbiased frames replaces the picture");
     ImGui::InputScalar("seed", ImGuiDataType_U32, &state.seed);
     add_tooltip("Seed of all random numbers");
+}
+
+void draw_display_section(ViewerState& state, const ViewerFacts& facts) {
+    if (!begin_section("Display", false)) return;
+    draw_tone_combo(facts.tone_curves, state.tone);
+    ImGui::SliderFloat("glare", &state.glare_strength, 0.0f, 8.0f, "%.2f x", ImGuiSliderFlags_AlwaysClamp);
+    add_tooltip("Light that scatters around what is brighter than white; 1: as much as in an eye");
+}
+
+void draw_keys_section() {
+    if (!begin_section("Keys")) return;
+    show_wrapped(
+        "W A S D Q E fly, Shift is faster, the wheel changes the speed; drag with the right button to look. "
+        "Tab: panel. Space: animation. F5: reload shaders. F12: screenshot. Escape: end.",
+        QUIET_COLOUR);
 }
 
 void draw_camera_section(ViewerState& state, const ViewerFacts& facts, PanelActions& actions) {
@@ -147,7 +202,7 @@ void draw_pass_rows(const FrameCost& cost) {
 }
 
 void draw_cost_section(const ViewerFacts& facts) {
-    if (!begin_section("Cost (median of the last frames)")) return;
+    if (!begin_section("Cost (median of the last frames)", false)) return;
     const FrameReport& report = facts.report;
     draw_pass_rows(facts.cost);
     show_text(fmt::format("{} shadow rays, {:.2f} M rays/s", report.shadow_rays, facts.rays_per_s * 1e-6));
@@ -155,7 +210,7 @@ void draw_cost_section(const ViewerFacts& facts) {
 }
 
 void draw_counter_section(const ViewerFacts& facts) {
-    if (!begin_section("Counters")) return;
+    if (!begin_section("Counters", false)) return;
     draw_table("counters", facts.report.counters, [](std::uint64_t count) {
         if (count == 0) {
             show_text("0");
@@ -189,7 +244,6 @@ void draw_tools_section(ViewerState& state, PanelActions& actions) {
     actions.reload_shaders = ImGui::Button("Reload shaders");
     add_tooltip("F5: recompiles the shaders that changed; one that fails keeps its old version");
     ImGui::InputTextWithHint("file", "a new name under out/", &state.screenshot_file);
-    show_wrapped("Tab hides the panel, Escape ends", QUIET_COLOUR);
 }
 
 // In the lower right corner, so that it moves no widget.
@@ -229,7 +283,9 @@ PanelActions draw_panel(ViewerState& state, const ViewerFacts& facts) {
     draw_headline(facts);
     // What is seen comes first: its place does not depend on which settings apply.
     draw_picture_section(state, facts);
-    if (begin_section("Settings")) draw_settings(facts.settings, SCALE_ROW, state.settings);
+    if (begin_section("Settings", false)) draw_settings(facts.settings, SCALE_ROW, state.settings);
+    draw_display_section(state, facts);
+    draw_keys_section();
     draw_camera_section(state, facts, actions);
     draw_animation_section(state, facts);
     draw_cost_section(facts);

@@ -16,9 +16,13 @@ namespace game {
 // What the panel changes.
 struct ViewerState {
     Settings settings;
-    std::string view;  // a name out of ViewerFacts::views
+    std::string preset = "clean";  // that was last chosen: settings may have changed since
+    std::string view;              // a name out of ViewerFacts::views
+    std::string tone = "neutral";  // out of ViewerFacts::tone_curves
+    float glare_strength = 1.0f;
     bool auto_exposure = true;
     float exposure_ev = 0.0f;  // automatic: follows the picture
+    bool converge = true;      // at rest, to the mean of many frames
     std::uint32_t seed = 0;
     bool playing = false;
     double time_s = 0.0;
@@ -31,7 +35,9 @@ struct ViewerState {
 // What the panel shows.
 struct ViewerFacts {
     std::vector<SettingInfo> settings = Settings::list();
+    std::vector<PresetInfo> presets = Settings::list_presets();
     std::vector<DisplayViewInfo> views = Display::list_views();
+    std::vector<std::string> tone_curves = Display::list_tone_curves();
     std::string scene_name;
     std::vector<std::pair<std::string, std::string>> scene_facts;  // "triangles", "74512"
     std::vector<std::string> camera_names;

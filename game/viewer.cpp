@@ -53,9 +53,12 @@ Viewer::Viewer(Window& window, Scene scene, const ViewerOptions& options)
       scene_(std::move(scene)),
       overlay_(window) {
     state_.settings = options.settings;
+    state_.preset = options.preset;
     state_.view = options.view;
     state_.auto_exposure = !options.exposure_ev;
     state_.exposure_ev = options.exposure_ev.value_or(0.0f);
+    state_.tone = options.tone;
+    state_.glare_strength = float(options.glare_strength);
     state_.seed = options.seed;
     state_.playing = scene_.duration_s() > 0.0 && options.time_s < 0.0;
     state_.time_s = std::max(0.0, options.time_s);
@@ -185,6 +188,14 @@ FrameReport Viewer::draw_frame(double dt_s) {
     frame.seed = state_.seed;
     frame.settings = state_.settings;
     frame.display.view = state_.view;
+    frame.display.tone = state_.tone;
+    frame.display.glare_strength = state_.glare_strength;
+    const Size size{view_->width_px(), view_->height_px()};
+    const bool rests = rest_.is_at_rest({camera_, state_.settings, state_.seed, state_.time_s, size});
+    if (rests && state_.converge) {
+        frame.average = true;
+        frame.settings = state_.settings.fresh();
+    }
     if (!state_.auto_exposure) frame.display.exposure_ev = state_.exposure_ev;
     frame.display.elapsed_s = dt_s;
     FrameReport report = view_->draw(frame);

@@ -13,6 +13,7 @@
 #include "overlay.h"
 #include "panel.h"
 #include "recent_timings.h"
+#include "rest_watch.h"
 #include "tarn_names.h"
 #include "window.h"
 
@@ -22,8 +23,11 @@ struct ViewerOptions {
     std::string scene_name;        // in the title and on the panel
     std::optional<Camera> camera;  // to start from; nullopt: the scene's first, and with it where it moves
     Settings settings;
+    std::string preset = "clean";      // from which they come
     std::string view = "radiance";     // which display view
     std::optional<float> exposure_ev;  // nullopt: automatic
+    std::string tone = "neutral";      // which tone curve
+    double glare_strength = 1.0;
     std::uint32_t seed = 0;
     double time_s = -1.0;              // for which the scene was loaded; < 0: its animations play
     int threads = 0;                   // as for EngineOptions
@@ -68,6 +72,7 @@ class Viewer {
     ViewerState state_;
     ViewerFacts facts_;
     RecentTimings timings_;
+    RestWatch rest_;
     FlyCamera camera_;
     std::uint32_t frame_ = 0;
     bool has_picture_ = false;   // of the view's

@@ -38,6 +38,8 @@ FrameReport describe_frame(const FrameOutput& output, const Renderer& renderer) 
     report.closest_rays = output.closest_rays;
     report.triangles_drawn = output.raster.triangles_drawn;
     report.triangles_total = output.raster.triangles_total;
+    report.averaged_frames = renderer.averaged_frames();
+    report.relative_error = renderer.read_relative_error();
     report.counters = renderer.read_counters();
     for (const FeatureReason& entry : renderer.plan().feature_reasons)
         report.plan.push_back({entry.define, entry.reason});
@@ -106,9 +108,12 @@ struct ViewState final : SceneFollower {
         input.frame = frame.number;
         input.seed = frame.seed;
         input.settings = SettingsAccess::values(frame.settings);
+        input.average = frame.average;
         DisplayInput& display = input.display.emplace();
-        display.view = parse_display_view(frame.display.view);
-        display.exposure = {frame.display.exposure_ev, frame.display.elapsed_s};
+        display.choice.view = parse_display_view(frame.display.view);
+        display.choice.look.tone = parse_tone_curve(frame.display.tone);
+        display.choice.look.glare = float(frame.display.glare_strength);
+        display.exposure = {frame.display.exposure_ev, frame.display.elapsed_s, display.choice.look.tone};
         last.reset();
         last.emplace(renderer->render(input));
     }
@@ -227,6 +232,11 @@ std::vector<DisplayViewInfo> Display::list_views() {
     std::vector<DisplayViewInfo> list;
     for (const tarn::DisplayViewInfo& view : display_views()) list.push_back({view.name, view.sentence});
     return list;
+}
+
+std::vector<std::string> Display::list_tone_curves() {
+    const auto names = tone_curve_names();
+    return {names.begin(), names.end()};
 }
 
 }  // namespace tarn::api

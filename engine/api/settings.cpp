@@ -55,6 +55,12 @@ Settings Settings::preset(const std::string& name) {
     }
 }
 
+Settings Settings::fresh() const {
+    Settings result;
+    result.values_->settings = fresh_settings(values_->settings);
+    return result;
+}
+
 std::vector<SettingInfo> Settings::list() {
     std::vector<SettingInfo> list;
     for (const Setting& row : setting_table()) {

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "gl/framebuffer.h"
+#include "passes/glare.h"
 #include "shared/interface/bindings.h"
 #include "shared/interface/constants/display.h"
 
@@ -42,17 +43,21 @@ DisplayView parse_display_view(const std::string& name) {
     throw Error("view '{}' is none of: {}", name, list_display_views());
 }
 
-Picture show_frame(const FrameContext& frame, DisplayView view, const Picture& radiance,
+Picture show_frame(const FrameContext& frame, const DisplayChoice& choice, const Picture& radiance,
                    const GBuffer& gbuffer, const Exposure& exposure) {
+    const bool has_glare = choice.view == DisplayView::RADIANCE && choice.look.glare > 0.0f;
+    const Picture glare = has_glare ? spread_glare(frame, radiance, exposure) : nullptr;
     const Picture shown = frame.recorder.take_picture("display", frame.output_px, GL_RGBA8);
     PassRecorder pass = frame.pass("display");
     read_gbuffer(pass, gbuffer)
         .read(UNIT_PASS_A, radiance)
         .read(UNIT_PASS_B, gbuffer.seen)
         .read(UNIT_PASS_C, exposure)
-        .constants(DisplayConstants{std::uint32_t(frame.output_px.x), std::uint32_t(frame.output_px.y)})
-        .write_image(0, *shown)
-        .dispatch(frame.compute(DisplayVariant{view}), frame.output_px);
+        .constants(DisplayConstants{std::uint32_t(frame.output_px.x), std::uint32_t(frame.output_px.y),
+                                    std::uint32_t(choice.look.tone), choice.look.glare})
+        .write_image(0, *shown);
+    if (glare) pass.read(UNIT_PASS_D, glare);
+    pass.dispatch(frame.compute(DisplayVariant{choice.view, has_glare}), frame.output_px);
     return shown;
 }
 

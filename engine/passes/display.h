@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include "core/display.h"
 #include "passes/exposure.h"
 #include "passes/gbuffer.h"
 
@@ -26,9 +27,15 @@ std::string list_display_views();
 // The view of that name. Throws Error that lists the names.
 DisplayView parse_display_view(const std::string& name);
 
+// What is shown of a frame, and how.
+struct DisplayChoice {
+    DisplayView view = DisplayView::RADIANCE;
+    DisplayLook look;  // its glare is that of the radiance, not of other views
+};
+
 // A view of the frame, RGBA8 at its output size, row 0 on top. `radiance` has that size too. Radiance and
 // emission are exposed and run through shared/math/display.h, as PNG files are.
-Picture show_frame(const FrameContext& frame, DisplayView view, const Picture& radiance,
+Picture show_frame(const FrameContext& frame, const DisplayChoice& choice, const Picture& radiance,
                    const GBuffer& gbuffer, const Exposure& exposure);
 
 // Draws `picture` over the whole of a framebuffer (0: the window's), scaled to its size.

@@ -317,13 +317,24 @@ Defines DisplayVariant::defines() const {
         "TARN_VIEW_RADIANCE",       "TARN_VIEW_LUMINANCE",         "TARN_VIEW_ALBEDO",
         "TARN_VIEW_EMISSION",       "TARN_VIEW_GEOMETRIC_NORMALS", "TARN_VIEW_SHADING_NORMALS",
         "TARN_VIEW_POSITION_ERROR", "TARN_VIEW_PRIMITIVES"};
-    return {DEFINES[std::size_t(view)]};
+    Defines defines = {DEFINES[std::size_t(view)]};
+    if (glare) defines.push_back("TARN_GLARE");
+    return defines;
 }
 
 std::vector<DisplayVariant> DisplayVariant::all() {
     std::vector<DisplayVariant> result;
     for (int view = 0; view < DISPLAY_VIEW_COUNT; ++view) result.push_back({DisplayView(view)});
+    result.push_back({DisplayView::RADIANCE, true});
     return result;
+}
+
+Defines GlareDownVariant::defines() const {
+    return is_first ? Defines{"TARN_GLARE_FIRST"} : Defines{};
+}
+
+std::vector<GlareDownVariant> GlareDownVariant::all() {
+    return {{true}, {false}};
 }
 
 std::vector<ShaderFamily> shader_families() {
@@ -357,7 +368,12 @@ std::vector<ShaderFamily> shader_families() {
             family_of<CompositeVariant>(),
             family_of<AntialiasVariant>(),
             family_of<EnlargeVariant>(),
+            family_of<AverageVariant>(),
+            family_of<AverageErrorVariant>(),
+            family_of<ExposureCountVariant>(),
             family_of<ExposureVariant>(),
+            family_of<GlareDownVariant>(),
+            family_of<GlareUpVariant>(),
             family_of<DisplayVariant>()};
 }
 

@@ -248,13 +248,39 @@ struct DisplayVariant {
     static constexpr const char* PATH = "display";
     static constexpr bool IS_OF_SCENE = false;
     DisplayView view = DisplayView::RADIANCE;
+    bool glare = false;  // for radiance alone
     Defines defines() const;
     static std::vector<DisplayVariant> all();
 };
 
+// is_first: from the picture itself.
+struct GlareDownVariant {
+    static constexpr const char* PATH = "glare/down";
+    static constexpr bool IS_OF_SCENE = false;
+    bool is_first = false;
+    Defines defines() const;
+    static std::vector<GlareDownVariant> all();
+};
+struct GlareUpVariant : PlainVariant<GlareUpVariant> {
+    static constexpr bool IS_OF_SCENE = false;
+    static constexpr const char* PATH = "glare/up";
+};
+
+struct AverageVariant : PlainVariant<AverageVariant> {
+    static constexpr bool IS_OF_SCENE = false;
+    static constexpr const char* PATH = "average/add";
+};
+struct AverageErrorVariant : PlainVariant<AverageErrorVariant> {
+    static constexpr bool IS_OF_SCENE = false;
+    static constexpr const char* PATH = "average/error";
+};
+struct ExposureCountVariant : PlainVariant<ExposureCountVariant> {
+    static constexpr bool IS_OF_SCENE = false;
+    static constexpr const char* PATH = "exposure/count";
+};
 struct ExposureVariant : PlainVariant<ExposureVariant> {
     static constexpr bool IS_OF_SCENE = false;
-    static constexpr const char* PATH = "exposure";
+    static constexpr const char* PATH = "exposure/find";
 };
 struct AntialiasVariant {
     static constexpr const char* PATH = "antialias";

@@ -50,7 +50,11 @@ Renderer::Values Renderer::record_frame(const FrameContext& frame, const FrameIn
         const Picture changes = samples ? compare_light(frame, gbuffer, *samples) : nullptr;
         direct = denoise(frame, gbuffer, {direct, std::exchange(indirect, {}), changes});
     }
-    const Picture radiance = finish(frame, gbuffer, composite(frame, gbuffer, direct, indirect));
+    Picture radiance = finish(frame, gbuffer, composite(frame, gbuffer, direct, indirect));
+    averaged_frames_ = 1;
+    average_sums_ = nullptr;
+    if (input.average) radiance = average(frame, radiance);
+    history_.shown.keep(frame.frame, radiance);
     Picture display;
     if (input.display) display = show(frame, *input.display, radiance, gbuffer);
     history_.surfaces.keep(frame.frame, gbuffer.surfaces);
@@ -97,11 +101,22 @@ Picture Renderer::finish(const FrameContext& frame, const GBuffer& gbuffer, cons
     return kept.picture;
 }
 
+// What moves starts over.
+Picture Renderer::average(const FrameContext& frame, const Picture& radiance) {
+    auto previous = find_previous(frame, history_.averaged);
+    if (frame.has_moved) previous.reset();
+    AveragedPicture average = average_frames(frame, radiance, previous, find_previous(frame, history_.shown));
+    averaged_frames_ = average.averaged.frames;
+    average_sums_ = average.sums;
+    history_.averaged.keep(frame.frame, std::move(average.averaged));
+    return average.shown;
+}
+
 Picture Renderer::show(const FrameContext& frame, const DisplayInput& input, const Picture& radiance,
                        const GBuffer& gbuffer) {
     exposure_ = find_exposure(frame, radiance, input.exposure, find_previous(frame, history_.exposure));
     history_.exposure.keep(frame.frame, exposure_);
-    return show_frame(frame, input.view, radiance, gbuffer, exposure_);
+    return show_frame(frame, input.choice, radiance, gbuffer, exposure_);
 }
 
 ReflectedLight Renderer::light_directly(const FrameContext& frame, const GBuffer& gbuffer) {

@@ -6,6 +6,7 @@
 
 #include "frame/history.h"
 #include "passes/antialias/antialias.h"
+#include "passes/average.h"
 #include "passes/denoise/denoise.h"
 #include "passes/exposure.h"
 #include "passes/gbuffer.h"
@@ -21,6 +22,8 @@ struct FrameHistory {
     glm::vec2 jitter_px{0.0f};
     History<Surfaces> surfaces;
     History<Exposure> exposure;
+    History<AveragedFrames> averaged;
+    History<Picture> shown;                      // as it was shown, or would have been
     std::vector<History<KeptSamples>> direct;    // one a target
     std::vector<History<KeptSamples>> indirect;  // the same
     bool paths_may_be_stale = false;  // something has changed since their lamps were asked for (tests_lamps)
@@ -38,6 +41,7 @@ struct FrameHistory {
         kept.camera = camera;
         kept.jitter_px = jitter_px;
         kept.exposure = exposure;
+        kept.shown = shown;
         kept.picture = picture;
         *this = std::move(kept);
     }

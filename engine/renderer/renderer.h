@@ -30,7 +30,7 @@ namespace tarn {
 
 // What a frame shows besides its radiance.
 struct DisplayInput {
-    DisplayView view = DisplayView::RADIANCE;
+    DisplayChoice choice;
     ExposureInput exposure;
 };
 
@@ -42,6 +42,8 @@ struct FrameInput {
     // Where in a pixel its ray goes through, from the centre, pixels; within +-0.5 pixels stay what they are.
     // Added to where antialiasing samples.
     glm::vec2 jitter_px{0.0f};
+    bool average =
+        false;  // radiance and display are the mean of this frame and those before it that say so too
     std::optional<DisplayInput> display;  // none: nothing is shown
 };
 
@@ -76,6 +78,11 @@ class Renderer {
 
     // The exposure that the last shown frame had, EV; 0 before the first one. Waits for the device.
     float read_exposure_ev() const;
+
+    // How many frames the last one's radiance is the mean of, and the error that is left
+    // (find_relative_error).
+    std::uint32_t averaged_frames() const { return averaged_frames_; }
+    double read_relative_error() const { return find_relative_error(average_sums_); }
 
     // Waits and reads a radiance texture back as 3 channels.
     Image read_radiance(const Texture2D& radiance) const;
@@ -113,6 +120,7 @@ class Renderer {
     Picture compare_light(const FrameContext& frame, const GBuffer& gbuffer,
                           const Previous<KeptSamples>& samples) const;
     ReflectedLight denoise(const FrameContext& frame, const GBuffer& gbuffer, const NoisyLight& noisy);
+    Picture average(const FrameContext& frame, const Picture& radiance);
     Picture show(const FrameContext& frame, const DisplayInput& input, const Picture& radiance,
                  const GBuffer& gbuffer);
     Picture finish(const FrameContext& frame, const GBuffer& gbuffer, const Picture& radiance);
@@ -152,6 +160,8 @@ class Renderer {
     FrameHistory history_;
     Picture radiance_;   // the latest one
     Exposure exposure_;  // that of the latest frame that was shown
+    std::uint32_t averaged_frames_ = 1;
+    Rows average_sums_;
     std::uint64_t rejected_rays_ = 0;
 };
 

@@ -41,7 +41,6 @@ RenderSettings clean_settings() {
     settings.direct.brdf_candidate = true;
     settings.indirect.mode = IndirectMode::RESTIR;
     settings.denoise.mode = DenoiseMode::SVGF;
-    settings.antialias.mode = AntialiasMode::TAA;
     return settings;
 }
 
@@ -97,9 +96,8 @@ RenderSettings student_settings() {
 
 const std::vector<Preset>& preset_table() {
     static const std::vector<Preset> table = {
-        {"clean",
-         "fast and one ray along the BRDF a pixel, with indirect light, denoised, edges smoothed over time",
-         clean_settings(), 0.08},
+        {"clean", "fast and one ray along the BRDF a pixel, with indirect light, denoised", clean_settings(),
+         0.08},
         {"fast", "two shadow rays a pixel, visibility averaged: some bias, least noise for its time",
          fast_settings(), 0.05},
         {"balanced",

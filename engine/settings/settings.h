@@ -22,6 +22,10 @@ struct RenderSettings {
     bool operator==(const RenderSettings&) const = default;
 };
 
+// The same light by an unbiased estimate that is fresh in every frame, for means that converge: RIS in place
+// of ReSTIR, with a candidate along the BRDF; paths of full resolution without reuse or cache; no denoiser.
+RenderSettings fresh_settings(const RenderSettings& settings);
+
 // One row of the table. Values travel as doubles; a choice is the index into `choices`.
 struct Setting {
     std::string name;      // "candidates": the option is --candidates

@@ -2,6 +2,7 @@
 // the size of what is shown; surfaces may be coarser.
 #include "shared/interface/constants/display.h"
 #include "lib/gbuffer.glsl"
+#include "lib/glare.glsl"
 #include "shared/math/colour.h"
 #include "shared/math/display.h"
 #include "shared/math/random.h"
@@ -11,6 +12,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = UNIT_PASS_A) uniform sampler2D frame_radiance;
 layout(binding = UNIT_PASS_B) uniform usampler2D seen_triangles;
 layout(binding = UNIT_PASS_C) uniform usamplerBuffer exposure;
+layout(binding = UNIT_PASS_D) uniform sampler2D glare;
 layout(binding = 0, rgba8) writeonly uniform image2D out_picture;
 
 // Radiance times this is shown.
@@ -49,6 +51,15 @@ vec3 position_error_colour(float error_m) {
     return false_colour(error_m > 0.0f ? (log2(error_m) / log2(10.0f) + 9.0f) / DECADES : 0.0f);
 }
 
+vec3 load_exposed(ivec2 shown) {
+    vec3 exposed = expose(texelFetch(frame_radiance, shown, 0).xyz, exposure_scale());
+#ifdef TARN_GLARE
+    int levels = count_glare_levels(int(width_px), int(height_px));
+    exposed = add_glare(exposed, load_enlarged(glare, shown), levels, glare_strength);
+#endif
+    return exposed;
+}
+
 vec3 view_colour(ivec2 shown) {
     ivec2 pixel = shown * textureSize(seen_triangles, 0) / ivec2(width_px, height_px);
     uvec2 seen = texelFetch(seen_triangles, pixel, 0).xy;
@@ -58,7 +69,7 @@ vec3 view_colour(ivec2 shown) {
 #elif defined(TARN_VIEW_ALBEDO)
     return srgb_from_linear3(load_layer(pixel, LAYER_DIFFUSE).xyz + load_layer(pixel, LAYER_SPECULAR).xyz);
 #elif defined(TARN_VIEW_EMISSION)
-    return display_colour(load_layer(pixel, LAYER_EMISSION).xyz, exposure_scale());
+    return encode_exposed(expose(load_layer(pixel, LAYER_EMISSION).xyz, exposure_scale()), tone);
 #elif defined(TARN_VIEW_GEOMETRIC_NORMALS)
     return direction_colour(load_layer(pixel, LAYER_NORMALS).xy, is_seen);
 #elif defined(TARN_VIEW_SHADING_NORMALS)
@@ -68,7 +79,7 @@ vec3 view_colour(ivec2 shown) {
 #elif defined(TARN_VIEW_PRIMITIVES)
     return is_seen ? primitive_colour(seen) : vec3(0.0f);
 #else
-    return display_colour(texelFetch(frame_radiance, shown, 0).xyz, exposure_scale());
+    return encode_exposed(load_exposed(shown), tone);
 #endif
 }
 

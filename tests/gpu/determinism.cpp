@@ -83,7 +83,7 @@ class Determinism : public testing::TestWithParam<Case> {
     // `tarn render` of the fourth frame, before which all that can move has moved three times.
     static std::vector<std::string> render_command(const std::string& context, const std::string& threads,
                                                    const std::string& out) {
-        std::vector<std::string> command = {tarn_program(), "render", GetParam().file.string()};
+        std::vector<std::string> command = {tarn_program(), "render", GetParam().file.string(), "--raw"};
         for (const char* word :
              {"--size", "160x90", "--frames", "4", "--seed", "5", "--time", "1.3", "--time-step", "0.2"}) {
             command.emplace_back(word);
@@ -230,9 +230,9 @@ TEST(CacheDeterminism, ThreadsGiveTheSameBits) {
         Pictures pictures("lantern_court, cache " + cache);
         for (const std::string& threads : THREADS) {
             const ProcessResult result =
-                run_tarn({"render", content_file("lantern_court").string(), "--size", "96x54", "--frames",
-                          "6", "--seed", "5", "--indirect", "restir", "--indirect-cache", cache, "--threads",
-                          threads, "--out", pictures.file(threads)});
+                run_tarn({"render", content_file("lantern_court").string(), "--raw", "--size", "96x54",
+                          "--frames", "6", "--seed", "5", "--indirect", "restir", "--indirect-cache", cache,
+                          "--threads", threads, "--out", pictures.file(threads)});
             ASSERT_EQ(result.status, 0) << result.err;
             pictures.add(threads);
         }

@@ -14,14 +14,14 @@
 namespace tarn {
 namespace {
 
-constexpr glm::ivec2 SIZE_PX(13, 9);
-constexpr std::size_t PIXELS = 13 * 9;
+constexpr glm::ivec2 SIZE_PX(53, 37);  // three levels of glare, all of odd sizes
+constexpr std::size_t PIXELS = 53 * 37;
 
 // Colours from black to far beyond white, and what must not reach a screen.
 std::vector<glm::vec4> make_radiance() {
     std::vector<glm::vec4> texels;
     for (std::size_t i = 0; i < PIXELS; ++i) {
-        const float level = std::exp2(float(i) * 0.15f - 10.0f);
+        const float level = std::exp2(float(i) * (17.5f / float(PIXELS)) - 10.0f);
         texels.push_back({level, level * 0.5f, level * float(i % 3), 1.0f});
     }
     texels[5] = {-1.0f, 0.5f, std::numeric_limits<float>::infinity(), 1.0f};
@@ -34,7 +34,7 @@ class DisplayPassTest : public testing::Test {
         for (Texture2D& layer : surfaces_->layers) layer.clear(glm::vec4(0.0f));
     }
 
-    std::vector<glm::u8vec4> show(DisplayView view, float exposure_ev) {
+    std::vector<glm::u8vec4> show(DisplayView view, float exposure_ev, const DisplayLook& look = {}) {
         context_.recorder().begin();
         const FrameContext frame = context_.frame(SIZE_PX, SIZE_PX);
         const Picture seen = context_.write_picture("test/seen", SIZE_PX, GL_RG32UI, seen_);
@@ -42,9 +42,18 @@ class DisplayPassTest : public testing::Test {
         frame.pass("test/surfaces").write(surfaces_->stack);
         const Exposure exposure = find_exposure(frame, radiance, {exposure_ev}, std::nullopt);
         const GBuffer gbuffer{seen, surfaces_, std::nullopt};
-        const Picture picture = show_frame(frame, view, radiance, gbuffer, exposure);
+        const Picture picture = show_frame(frame, {view, look}, radiance, gbuffer, exposure);
         context_.recorder().end();
         return picture->download<glm::u8vec4>();
+    }
+
+    static void expect_same(const std::vector<glm::u8vec4>& shown, const Image& expected) {
+        for (std::size_t i = 0; i < shown.size(); ++i) {
+            for (int c = 0; c < 3; ++c) {
+                // Half a step of 1/255 from rounding, a little for pow.
+                EXPECT_NEAR(float(shown[i][c]), 255.0f * expected.values[3 * i + c], 0.6f) << "pixel " << i;
+            }
+        }
     }
 
     Texture2D& layer(int index) { return surfaces_->layers[std::size_t(index)]; }
@@ -61,12 +70,11 @@ TEST_F(DisplayPassTest, TheWindowShowsWhatThePngHolds) {
         for (int c = 0; c < 3; ++c) image.values[3 * i + c] = radiance_[i][c];
     }
     for (const float exposure_ev : {-3.0f, 0.0f, 2.5f}) {
-        const Image expected = display_from_radiance(image, exposure_ev);
-        const std::vector<glm::u8vec4> shown = show(DisplayView::RADIANCE, exposure_ev);
-        for (std::size_t i = 0; i < shown.size(); ++i) {
-            for (int c = 0; c < 3; ++c) {
-                // Half a step of 1/255 from rounding, a little for pow.
-                EXPECT_NEAR(float(shown[i][c]), 255.0f * expected.values[3 * i + c], 0.6f) << "pixel " << i;
+        for (const ToneCurve tone : {ToneCurve::CLIP, ToneCurve::NEUTRAL}) {
+            for (const float glare : {0.0f, 1.0f, 8.0f}) {
+                const DisplayLook look{tone, glare};
+                expect_same(show(DisplayView::RADIANCE, exposure_ev, look),
+                            display_from_radiance(image, exposure_ev, look));
             }
         }
     }

@@ -47,7 +47,7 @@ TEST_F(FloorsCommand, EveryPassStandsBesideItsFloor) {
 // Passes that rasterize share a row, as do those that trace; all others have one each.
 TEST_F(FloorsCommand, TheRowsAreThePassesOfTheFrame) {
     const Json floors = run("floors", {"--frames", "2", "--direct", "ris"});
-    const Json render = run("render", {"--direct", "ris", "--out", folder_.file("picture.png")});
+    const Json render = run("render", {"--raw", "--direct", "ris", "--out", folder_.file("picture.png")});
     std::set<std::string> expected = {"frame"}, found;
     for (const Json& pass : render["passes"]) {
         const std::string name = pass["name"];
@@ -62,7 +62,7 @@ TEST_F(FloorsCommand, TheRowsAreThePassesOfTheFrame) {
 // ray.
 TEST_F(FloorsCommand, TheRaysAreThoseOfAFrame) {
     const Json floors = run("floors", {"--frames", "1", "--direct", "ris"});
-    const Json render = run("render", {"--direct", "ris", "--out", folder_.file("picture.png")});
+    const Json render = run("render", {"--raw", "--direct", "ris", "--out", folder_.file("picture.png")});
     const double rays = render["rays"]["shadow"];
     EXPECT_GT(rays, 0.0);
     EXPECT_NEAR(floors["rays"].get<double>(), rays, 0.1 * rays);

@@ -43,9 +43,9 @@ void expect_report(const nlohmann::json& report) {
 TEST(RenderCommand, ReportsWhatItPromises) {
     for (const char* frames : {"1", "3"}) {
         const TemporaryFolder folder;
-        const ProcessResult result = run_tarn({"render", CORNELL, "--out", folder.file("a.exr"), "--size",
-                                               "64x36", "--threads", "2", "--frames", frames, "--seed", "9",
-                                               "--direct", "uniform", "--json", folder.file("a.json")});
+        const ProcessResult result = run_tarn(
+            {"render", CORNELL, "--raw", "--out", folder.file("a.exr"), "--size", "64x36", "--threads", "2",
+             "--frames", frames, "--seed", "9", "--direct", "uniform", "--json", folder.file("a.json")});
         ASSERT_EQ(result.status, 0) << result.err;
         const nlohmann::json report = read_json(folder.file("a.json"));
         expect_report(report);
@@ -59,8 +59,8 @@ TEST(RenderCommand, ReportsWhatItPromises) {
 TEST(RenderCommand, ExposureAppliesToPngAlone) {
     const TemporaryFolder folder;
     const auto render = [&](const std::string& name, const std::string& exposure) {
-        const ProcessResult result = run_tarn(
-            {"render", CORNELL, "--out", folder.file(name), "--size", "32x18", "--exposure", exposure});
+        const ProcessResult result = run_tarn({"render", CORNELL, "--raw", "--out", folder.file(name),
+                                               "--size", "32x18", "--exposure", exposure});
         EXPECT_EQ(result.status, 0) << result.err;
         return folder.file(name);
     };
@@ -123,9 +123,9 @@ void expect_whole_files(const std::filesystem::path& folder) {
 TEST(FlythroughCommand, WritesPicturesErrorsAndAReport) {
     const TemporaryFolder folder;
     const ProcessResult result =
-        run_tarn({"flythrough", CORNELL, "--out", folder.file("fly"), "--size", "64x36", "--threads", "2",
-                  "--frames", "4", "--pictures", "2", "--measured", "1", "--reference-spp", "4", "--json",
-                  folder.file("also.json")});
+        run_tarn({"flythrough", CORNELL, "--raw", "--out", folder.file("fly"), "--size", "64x36", "--threads",
+                  "2", "--frames", "4", "--pictures", "2", "--measured", "1", "--reference-spp", "4",
+                  "--json", folder.file("also.json")});
     ASSERT_EQ(result.status, 0) << result.err;
     expect_whole_files(folder.path() / "fly");
     const nlohmann::json report = read_json(folder.path() / "fly" / "report.json");
@@ -140,8 +140,8 @@ TEST(FlythroughCommand, WritesPicturesErrorsAndAReport) {
 TEST(FlythroughCommand, CtrlCLeavesWholeFilesAndAReport) {
     const TemporaryFolder folder;
     const std::filesystem::path out = folder.path() / "fly";
-    Process process({tarn_program(), "flythrough", "--out", out.string(), "--size", "64x36", "--threads", "2",
-                     "--frames", "100000", "--pictures", "100000", "--measured", "0"});
+    Process process({tarn_program(), "flythrough", "--raw", "--out", out.string(), "--size", "64x36",
+                     "--threads", "2", "--frames", "100000", "--pictures", "100000", "--measured", "0"});
     ASSERT_TRUE(process.wait_until([&] { return std::filesystem::exists(out / "frame_0002.png"); },
                                    std::chrono::seconds(120)))
         << process.error_text();

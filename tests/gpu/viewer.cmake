@@ -1,5 +1,6 @@
 # What the window shows: the display pass, the game's window, and the viewer in it with real events.
 tarn_test(display_pass LABEL gpu LIBRARIES tarn_passes tarn_platform)
+tarn_test(average_pass LABEL gpu LIBRARIES tarn_passes tarn_platform tarn_test_support)
 tarn_test(exposure_pass LABEL gpu LIBRARIES tarn_passes tarn_platform tarn_test_support)
 tarn_test(jitter LABEL gpu LIBRARIES tarn_renderer tarn_platform tarn_rays tarn_world)
 tarn_test(game_window LABEL gpu LIBRARIES tarn_game)

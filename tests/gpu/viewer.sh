@@ -115,8 +115,10 @@ wait_for "Tab hides the panel" differs before "$panel" 0.05
 xdotool key Tab
 wait_for "Tab brings it back" panel_is_back
 
-choose 191 0 'direct=uniform'
-choose 81 0 'view=radiance'
+xdotool mousemove 100 229 click 1
+wait_for "the settings unfold" differs before 300x100+10+240 0.02
+choose 251 0 'direct=uniform'
+choose 119 0 'view=radiance'
 look with_radiance
 wait_for "the picture of light" shows_something "$picture"
 

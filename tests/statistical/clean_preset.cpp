@@ -1,9 +1,8 @@
 // The preset `clean` keeps the energy that it promises, at rest and walking: direct and indirect light,
 // denoised, against the reference of as many bounces.
 //
-// Lamps in view would outshine all else: pixels that emit are left out with those beside them, which share
-// lamps' edges, and so are those far above the mean in either picture, which the noise of few samples
-// decides.
+// Lamps in view would outshine all else: pixels that emit are left out, and so are those far above the mean
+// in either picture, which the noise of few samples decides.
 #include <cmath>
 
 #include "core/statistics.h"
@@ -20,7 +19,6 @@ constexpr int WIDTH_PX = 96;
 constexpr int HEIGHT_PX = 54;
 constexpr int SEEDS = 12;
 constexpr int FRAMES = 24;
-constexpr int LAMP_FRAMES = 8;      // the last ones, which see lamps smaller than a pixel
 constexpr float STEP_M = 0.02f;     // a frame: 1.2 m/s at 60 frames a second
 constexpr double FAR_ABOVE = 20.0;  // the reference's mean
 constexpr double MOST_LEFT_OUT = 0.02;
@@ -38,21 +36,6 @@ Luminances luminance_of(const Image& image) {
     return result;
 }
 
-// Pixels that emit, and those beside them.
-std::vector<bool> find_lamps(const std::vector<glm::vec4>& emission) {
-    std::vector<bool> result(emission.size(), false);
-    for (int i = 0; i < int(emission.size()); ++i) {
-        const glm::vec4& texel = emission[std::size_t(i)];
-        if (texel.x + texel.y + texel.z == 0.0f) continue;
-        const int x = i % WIDTH_PX, y = i / WIDTH_PX;
-        for (int v = std::max(0, y - 1); v <= std::min(HEIGHT_PX - 1, y + 1); ++v) {
-            for (int u = std::max(0, x - 1); u <= std::min(WIDTH_PX - 1, x + 1); ++u)
-                result[std::size_t(v * WIDTH_PX + u)] = true;
-        }
-    }
-    return result;
-}
-
 class CleanPreset : public OnContext<testing::TestWithParam<const char*>> {
   protected:
     CameraRecord camera_at(int frame, float step_m) const {
@@ -61,25 +44,24 @@ class CleanPreset : public OnContext<testing::TestWithParam<const char*>> {
         return camera;
     }
 
-    // The last frame; `emits` gets find_lamps.
+    // The last frame; `emits` gets which pixels do.
     Luminances render(float step_m, std::uint32_t seed, std::vector<bool>& emits) const {
         Renderer renderer(scene_->world, *scene_->tracer, WIDTH_PX, HEIGHT_PX);
         FrameInput input;
         input.settings = find_preset("clean").settings;
         input.seed = seed;
         Luminances last;
-        emits.clear();
         for (int frame = 0; frame < FRAMES; ++frame) {
             input.frame = std::uint32_t(frame);
             input.camera = camera_at(frame, step_m);
             const FrameOutput output = renderer.render(input);
-            if (frame + LAMP_FRAMES < FRAMES) continue;
-            const std::vector<bool> lamps =
-                find_lamps(output.gbuffer.surfaces->layers[LAYER_EMISSION].download<glm::vec4>());
-            emits.resize(lamps.size());
-            for (std::size_t i = 0; i < lamps.size(); ++i) emits[i] = emits[i] || lamps[i];
             if (frame + 1 < FRAMES) continue;
             last = luminance_of(renderer.read_radiance(output.radiance));
+            emits.clear();
+            for (const glm::vec4& texel :
+                 output.gbuffer.surfaces->layers[LAYER_EMISSION].download<glm::vec4>()) {
+                emits.push_back(texel.x + texel.y + texel.z > 0.0f);
+            }
         }
         return last;
     }
@@ -91,7 +73,6 @@ class CleanPreset : public OnContext<testing::TestWithParam<const char*>> {
         settings.camera = camera_at(FRAMES - 1, 0.0f);
         settings.bounces = 2;
         settings.spp = REFERENCE_SPP;
-        settings.box_pixel_filter = true;
         return luminance_of(render_reference(scene_->world, *scene_->tracer, settings).radiance);
     }
 

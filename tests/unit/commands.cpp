@@ -30,7 +30,8 @@ Arguments operator+(Arguments first, const Arguments& second) {
 
 const Arguments SCENE_OPTIONS = {"SCENE",  "--size",    "--camera", "--environment",
                                  "--seed", "--threads", "--time",   "--scene"};
-const Arguments RENDER_OPTIONS = {"--direct", "--candidates", "--context", "--exposure"};
+const Arguments RENDER_OPTIONS = {"--direct", "--candidates", "--context", "--exposure",      "--preset",
+                                  "--raw",    "--tone",       "--glare",   "--glare-strength"};
 
 // The arguments on one line, for messages.
 std::string join(const Arguments& arguments) {
@@ -92,6 +93,9 @@ TEST(WrongUsage, EndsWithStatus2AndSaysWhatIsWrong) {
              render + Arguments{"--candidates", "nan"},
              render + Arguments{"--context", "vulkan"},
              render + Arguments{"--exposure", "bright"},
+             render + Arguments{"--tone", "filmic"},
+             render + Arguments{"--glare", "some"},
+             render + Arguments{"--glare-strength", "nan"},
              render + Arguments{"--exposure", "nan"},
              render + Arguments{"--exposure", "inf"},
              render + Arguments{"--exposure", "41"},

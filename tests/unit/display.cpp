@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/error.h"
 #include "shared/math/display.h"
 
 namespace tarn {
@@ -64,15 +65,36 @@ TEST(DisplayFromRadiance, stays_in_range_for_any_input) {
     EXPECT_NEAR(display_from_radiance(constant(INFINITE, INFINITE, INFINITE), 0.0f).values[0], 1.0f, 1e-3);
 }
 
-TEST(AutoExposure, maps_the_log_average_to_middle_grey) {
-    EXPECT_NEAR(auto_exposure_ev(constant(0.18f, 0.18f, 0.18f)), 0.0f, 1e-5);
-    EXPECT_NEAR(auto_exposure_ev(constant(0.09f, 0.09f, 0.09f, 8, 8)), 1.0f, 1e-5);
-    Image two = constant(0.18f, 0.18f, 0.18f, 2, 1);
-    for (int c = 0; c < 3; ++c) two.pixel(1, 0)[c] = 0.18f * 16.0f;
-    EXPECT_NEAR(auto_exposure_ev(two), -2.0f, 1e-5);
+TEST(ToneClip, cuts_each_channel_off_at_white_and_changes_nothing_below) {
+    const Image display = display_from_radiance(constant(0.25f, 4.0f, 0.5f), 0.0f, {ToneCurve::CLIP});
+    EXPECT_NEAR(display.values[0], encode_srgb(0.25f), 1e-6);
+    EXPECT_EQ(display.values[1], 1.0f);
+    EXPECT_NEAR(display.values[2], encode_srgb(0.5f), 1e-6);
+    EXPECT_EQ(parse_tone_curve("clip"), ToneCurve::CLIP);
+    EXPECT_EQ(parse_tone_curve("neutral"), ToneCurve::NEUTRAL);
+    EXPECT_THROW(parse_tone_curve("filmic"), Error);
 }
 
-TEST(AutoExposure, ignores_extremes_black_and_non_finite_pixels) {
+// The published curve's promise: up to 0.8 a colour only loses 0.04 of each channel, so hues stay.
+TEST(ToneMapNeutral, keeps_the_order_of_channels_and_never_leaves_the_range) {
+    for (float level = 0.01f; level < 1e6f; level *= 1.7f) {
+        const vec3 mapped = map_tone_neutral(level * vec3(1.0f, 0.6f, 0.2f));
+        EXPECT_GE(mapped[0], mapped[1]) << level;
+        EXPECT_GE(mapped[1], mapped[2]) << level;
+        EXPECT_LT(mapped[0], 1.0f + 1e-6f) << level;
+        EXPECT_GE(mapped[2], 0.0f) << level;
+    }
+}
+
+TEST(MeasuringExposure, maps_the_log_average_to_middle_grey) {
+    EXPECT_NEAR(measuring_exposure_ev(constant(0.18f, 0.18f, 0.18f)), 0.0f, 1e-5);
+    EXPECT_NEAR(measuring_exposure_ev(constant(0.09f, 0.09f, 0.09f, 8, 8)), 1.0f, 1e-5);
+    Image two = constant(0.18f, 0.18f, 0.18f, 2, 1);
+    for (int c = 0; c < 3; ++c) two.pixel(1, 0)[c] = 0.18f * 16.0f;
+    EXPECT_NEAR(measuring_exposure_ev(two), -2.0f, 1e-5);
+}
+
+TEST(MeasuringExposure, ignores_extremes_black_and_non_finite_pixels) {
     Image image = constant(0.18f, 0.18f, 0.18f, 20, 10);
     for (int c = 0; c < 3; ++c) {
         image.pixel(0, 0)[c] = 1e20f;
@@ -81,13 +103,13 @@ TEST(AutoExposure, ignores_extremes_black_and_non_finite_pixels) {
         image.pixel(3, 0)[c] = std::nanf("");
         image.pixel(4, 0)[c] = INFINITE;
     }
-    EXPECT_NEAR(auto_exposure_ev(image), 0.0f, 1e-5);
+    EXPECT_NEAR(measuring_exposure_ev(image), 0.0f, 1e-5);
 }
 
-TEST(AutoExposure, is_limited_and_zero_where_nothing_counts) {
-    EXPECT_EQ(auto_exposure_ev(constant(1e-20f, 1e-20f, 1e-20f)), 20.0f);
-    EXPECT_EQ(auto_exposure_ev(constant(1e20f, 1e20f, 1e20f)), -20.0f);
-    EXPECT_EQ(auto_exposure_ev(constant(0.0f, 0.0f, 0.0f)), 0.0f);
+TEST(MeasuringExposure, is_limited_and_zero_where_nothing_counts) {
+    EXPECT_EQ(measuring_exposure_ev(constant(1e-20f, 1e-20f, 1e-20f)), 20.0f);
+    EXPECT_EQ(measuring_exposure_ev(constant(1e20f, 1e20f, 1e20f)), -20.0f);
+    EXPECT_EQ(measuring_exposure_ev(constant(0.0f, 0.0f, 0.0f)), 0.0f);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 # The game's own logic, which needs no window.
 tarn_test(fly_camera LABEL unit LIBRARIES tarn_game)
+tarn_test(rest_watch LABEL unit LIBRARIES tarn_game)
 tarn_test(recent_timings LABEL unit LIBRARIES tarn_game)
 
 # The game stands on the engine's public surface alone.

@@ -142,7 +142,7 @@ Truth make_truth(const ReferenceResult& reference, std::span<const std::uint32_t
     Truth truth;
     truth.picture = reference.radiance;
     truth.radiance = reference.radiance;
-    truth.exposure_ev = exposure_ev ? *exposure_ev : auto_exposure_ev(reference.radiance);
+    truth.exposure_ev = exposure_ev ? *exposure_ev : measuring_exposure_ev(reference.radiance);
     truth.display = display_from_radiance(reference.radiance, truth.exposure_ev);
     truth.left_out = left_out.size();
     truth.spp = reference.spp;

@@ -87,7 +87,8 @@ Pair load_radiance(const CompareOptions& options) {
     pair.linear_reference = read_radiance(options.reference);
     pair.linear_image = read_radiance(options.image);
     check_same_size(options, pair.linear_reference, pair.linear_image);
-    pair.exposure_ev = options.exposure_ev ? *options.exposure_ev : auto_exposure_ev(pair.linear_reference);
+    pair.exposure_ev =
+        options.exposure_ev ? *options.exposure_ev : measuring_exposure_ev(pair.linear_reference);
     pair.scale = options.exposure_ev ? std::exp2(double(*options.exposure_ev)) : 1.0;
     pair.display_reference = display_from_radiance(pair.linear_reference, pair.exposure_ev);
     pair.display_image = display_from_radiance(pair.linear_image, pair.exposure_ev);

@@ -63,6 +63,7 @@ nlohmann::json describe_key(const FlythroughCommand& command, const CameraPath& 
                           {"context", command.options.context},
                           {"plan", {plan.frames, plan.pictures, plan.measured, plan.reference_spp}}};
     if (command.options.exposure_ev) key["exposure_ev"] = *command.options.exposure_ev;
+    key["look"] = {command.options.look.tone, command.options.look.glare};
     for (const Method& method : plan.methods)
         key["methods"].push_back({method.label, describe_settings(method.settings)});
     for (const CameraKey& k : path.keys) {
@@ -150,7 +151,7 @@ void add_flythrough_command(CLI::App& app) {
     CLI::App* sub = app.add_subcommand(
         "flythrough", "Play a camera path without a window; write pictures, timings and errors");
     auto command = std::make_shared<FlythroughCommand>();
-    add_render_options(*sub, command->options);
+    add_picture_options(*sub, command->options);
     sub->get_option("SCENE")->required(false)->description(
         "glTF file or generated scene (default: the path's own)");
     // The path says where from and when.

@@ -67,9 +67,11 @@ class Flyer {
           out_(std::move(out)),
           work_(work) {
         flight_.methods.resize(plan.methods.size());
-        flight_.exposure_ev = options.exposure_ev;
+        flight_.exposure_ev = flight_.shown_ev = options.exposure_ev;
         const nlohmann::json note = work.load_note("exposure");
-        if (!note.is_null()) flight_.exposure_ev = note.get<float>();
+        if (note.is_null()) return;
+        flight_.exposure_ev = note.at(0).get<float>();
+        flight_.shown_ev = note.at(1).get<float>();
     }
 
     Flight fly() {
@@ -169,13 +171,17 @@ class Flyer {
 
     void write_pictures(int frame, const std::vector<Image>& radiance) {
         if (!flight_.exposure_ev) {
-            flight_.exposure_ev = auto_exposure_ev(radiance.front());
-            work_.save_note("exposure", *flight_.exposure_ev);
+            flight_.exposure_ev = measuring_exposure_ev(radiance.front());
+            flight_.shown_ev = auto_exposure_ev(radiance.front(), options_.look.tone);
+            work_.save_note("exposure", {*flight_.exposure_ev, *flight_.shown_ev});
         }
         for (std::size_t method = 0; method < radiance.size(); ++method) {
-            write_png(out_ / flight_picture_name(plan_, method, frame),
-                      display_from_radiance(radiance[method], *flight_.exposure_ev));
+            write_picture(flight_picture_name(plan_, method, frame), radiance[method]);
         }
+    }
+
+    void write_picture(const std::string& name, const Image& radiance) const {
+        write_png(out_ / name, display_from_radiance(radiance, *flight_.shown_ev, options_.look));
     }
 
     // Nothing where the user interrupts.
@@ -186,8 +192,7 @@ class Flyer {
         settings.box_pixel_filter = any_antialiases(plan_.methods);
         const ReferenceResult reference = find_reference(session_, settings);
         if (reference.cancelled) return std::nullopt;
-        write_png(out_ / flight_reference_name(frame),
-                  display_from_radiance(reference.radiance, *flight_.exposure_ev));
+        write_picture(flight_reference_name(frame), reference.radiance);
         const auto left_out = find_silhouettes(session_.renderer(), session_.tracer(), input_for(0, frame));
         return make_truth(reference, left_out, flight_.exposure_ev);
     }

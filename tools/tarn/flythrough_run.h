@@ -36,7 +36,8 @@ struct Flight {
     std::vector<int> pictured;                                   // frames with a picture a method
     std::vector<int> measured;                                   // frames with a reference
     std::vector<std::map<std::string, std::uint64_t>> counters;  // [method]
-    std::optional<float> exposure_ev;
+    std::optional<float> exposure_ev;                            // by which errors are measured
+    std::optional<float> shown_ev;                               // of the pictures
     double reference_error = 0.0;  // the largest ReferenceResult::relative_error
     bool interrupted = false;
 };

@@ -8,6 +8,7 @@
 #include "core/version.h"
 #include "image_io/image_io.h"
 #include "metrics/frame_mean.h"
+#include "metrics/mean_error.h"
 #include "session.h"
 
 namespace tarn {
@@ -52,7 +53,9 @@ void write_picture(const RenderCommand& command, const Image& radiance) {
     if (is_exr(file)) {
         write_exr(file, radiance, describe_picture(command));
     } else {
-        write_png(file, display_from_radiance(radiance, exposure_ev.value_or(auto_exposure_ev(radiance))));
+        const DisplayLook& look = command.options.look;
+        const float ev = exposure_ev.value_or(auto_exposure_ev(radiance, look.tone));
+        write_png(file, display_from_radiance(radiance, ev, look));
     }
 }
 
@@ -64,7 +67,26 @@ void move_to_frame(const RenderCommand& command, int frame, RenderSession& sessi
     input.camera = choose_camera(then, session.loaded().scene, session.loaded().world);
 }
 
-void run_render(const RenderCommand& command) {
+// Frames of fresh_settings are independent; others share what they keep for each other.
+int count_batch_frames(const RenderCommand& command) {
+    constexpr int FRAMES_THAT_REMEMBER = 32;
+    return command.options.names_preset ? FRAMES_THAT_REMEMBER : 1;
+}
+
+void print_error(int frames, const std::optional<double>& error) {
+    if (error) fmt::print("mean of {} frames, error left about {:.2g} %\n", frames, 100.0 * *error);
+}
+
+nlohmann::json describe_error(int frames, const MeanError& error) {
+    nlohmann::json json = {{"frames", frames}, {"batches", error.batches()}, {"relative_error", nullptr}};
+    if (const auto left = error.relative_error()) json["relative_error"] = *left;
+    return json;
+}
+
+void run_render(RenderCommand command) {
+    RenderSettings& settings = command.options.settings;
+    if (command.accumulate && !command.options.names_preset) settings = fresh_settings(settings);
+
     check_output(command.out);
     check_output_folder(command.options.json_file);
     RenderSession session(command.options);
@@ -76,6 +98,7 @@ void run_render(const RenderCommand& command) {
 
     RunTotals totals;
     FrameMean mean;
+    MeanError error(count_batch_frames(command));
     Image radiance;
     Progress progress("rendering", std::uint64_t(command.frames));
     for (int frame = 0; frame < command.frames; ++frame) {
@@ -85,14 +108,16 @@ void run_render(const RenderCommand& command) {
         totals.add(output);
         const bool last = frame + 1 == command.frames;
         if (command.accumulate || last) radiance = renderer.read_radiance(output.radiance);
-        if (command.accumulate) mean.add(radiance);
+        if (command.accumulate) mean.add(radiance), error.add(radiance);
         progress.update(std::uint64_t(frame) + 1);
     }
     if (command.accumulate) radiance = mean.mean();
     write_picture(command, radiance);
-    if (!command.options.json_file.empty()) {
-        write_json(command.options.json_file, make_report(command.options, session, totals));
-    }
+    if (command.accumulate) print_error(mean.frames(), error.relative_error());
+    if (command.options.json_file.empty()) return;
+    nlohmann::json report = make_report(command.options, session, totals);
+    if (command.accumulate) report["accumulated"] = describe_error(mean.frames(), error);
+    write_json(command.options.json_file, report);
 }
 
 }  // namespace
@@ -100,14 +125,17 @@ void run_render(const RenderCommand& command) {
 void add_render_command(CLI::App& app) {
     CLI::App* sub = app.add_subcommand("render", "Render a picture with the GL renderer");
     auto command = std::make_shared<RenderCommand>();
-    add_render_options(*sub, command->options);
+    add_picture_options(*sub, command->options);
     sub->add_option("--out", command->out,
                     "The picture: .exr (linear radiance) or .png (exposed, tone-mapped)")
         ->required();
     sub->add_option("--frames", command->frames, "Render this many frames and keep the last")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();
-    sub->add_flag("--accumulate", command->accumulate, "Keep the mean of all frames instead of the last");
+    sub->add_flag(
+        "--accumulate", command->accumulate,
+        "Keep the mean of all frames instead of the last, and say what error is left. Frames are fresh, "
+        "unbiased estimates, unless --preset or --raw says otherwise");
     sub->add_option("--time-step", command->time_step_s, "Move the animation on by this much a frame, s")
         ->check(make_finite_range(0.0, 1e6))
         ->capture_default_str();

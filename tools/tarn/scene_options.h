@@ -30,6 +30,7 @@ struct SceneOptions {
 
 inline constexpr double MIN_EXPOSURE_EV = -40.0;
 inline constexpr double MAX_EXPOSURE_EV = 40.0;
+inline constexpr double MAX_GLARE_STRENGTH = 8.0;
 
 // A check of an option: a number from `minimum` to `maximum`. CLI11's own Range takes "nan" for one.
 CLI::Validator make_finite_range(double minimum, double maximum);

@@ -45,6 +45,8 @@ void add_preset_option(CLI::App& command, RenderOptions& options) {
     const auto apply = [&options](const std::string& name) {
         try {
             options.settings = find_preset(name).settings;
+            options.preset = name;
+            options.names_preset = true;
         } catch (const Error& error) {
             throw CLI::ValidationError(error.what());
         }
@@ -84,10 +86,69 @@ void add_session_options(CLI::App& command, RenderOptions& options) {
     command.add_option("--json", options.json_file, "Write timings, counters and settings to this file");
 }
 
+namespace {
+
+void add_setting_options(CLI::App& command, RenderOptions& options) {
+    for (const Setting& setting : setting_table()) add_setting_option(command, options, setting);
+}
+
+// As --preset: before the settings.
+void add_raw_option(CLI::App& command, RenderOptions& options) {
+    const auto apply = [&options](std::int64_t) {
+        options.settings = RenderSettings();
+        options.preset = "raw";
+        options.names_preset = true;
+    };
+    command.add_flag_function(
+        "--raw", apply, "Show the estimator itself: direct light by RIS, no denoiser; not preset clean");
+}
+
+void add_look_options(CLI::App& command, RenderOptions& options) {
+    const auto parse_tone = [&options](const std::string& name) {
+        try {
+            options.look.tone = parse_tone_curve(name);
+        } catch (const Error& error) {
+            throw CLI::ValidationError(error.what());
+        }
+    };
+    command
+        .add_option_function<std::string>("--tone", parse_tone,
+                                          fmt::format("How pictures for the eye treat what is brighter than "
+                                                      "the screen's white [{}]",
+                                                      fmt::join(tone_curve_names(), ", ")))
+        ->default_str("neutral");
+    command
+        .add_option(
+            "--glare-strength", options.look.glare,
+            "Light that scatters around what is brighter than white [0 to 8; 1: as much as in an eye]")
+        ->check(make_finite_range(0.0, MAX_GLARE_STRENGTH))
+        ->capture_default_str();
+    const auto switch_glare = [&options](const std::string& word) {
+        if (word == "off") options.look.glare = 0.0f;
+    };
+    command
+        .add_option_function<std::string>("--glare", switch_glare,
+                                          "Whether pictures for the eye have glare [off, on]")
+        ->check(CLI::IsMember({"off", "on"}))
+        ->default_str("on");
+}
+
+}  // namespace
+
 void add_render_options(CLI::App& command, RenderOptions& options) {
     add_session_options(command, options);
     add_preset_option(command, options);
-    for (const Setting& setting : setting_table()) add_setting_option(command, options, setting);
+    add_setting_options(command, options);
+}
+
+void add_picture_options(CLI::App& command, RenderOptions& options) {
+    options.settings = find_preset("clean").settings;
+    add_session_options(command, options);
+    add_preset_option(command, options);
+    command.get_option("--preset")->default_str("clean");
+    add_raw_option(command, options);
+    add_setting_options(command, options);
+    add_look_options(command, options);
 }
 
 ContextOptions make_context_options(const RenderOptions& options) {

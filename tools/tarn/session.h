@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "core/display.h"
 #include "output/output_files.h"
 #include "platform/context.h"
 #include "renderer/renderer.h"
@@ -16,8 +17,11 @@ namespace tarn {
 struct RenderOptions {
     SceneOptions scene;
     RenderSettings settings;
+    std::string preset = "clean";  // that the settings started from; "raw": none
+    bool names_preset = false;     // whether the user chose that
     std::string context = "egl";
     std::optional<float> exposure_ev;  // none: automatic
+    DisplayLook look = {ToneCurve::NEUTRAL, 1.0f};
     std::string json_file;
 };
 
@@ -27,6 +31,10 @@ void add_session_options(CLI::App& command, RenderOptions& options);
 
 // Adds those, --preset and an option for each row of the settings table.
 void add_render_options(CLI::App& command, RenderOptions& options);
+
+// Adds these for a command that shows pictures to people: the preset "clean" unless --raw or --preset say
+// otherwise, and --tone, --glare and --glare-strength.
+void add_picture_options(CLI::App& command, RenderOptions& options);
 
 // The context that the options ask for.
 ContextOptions make_context_options(const RenderOptions& options);

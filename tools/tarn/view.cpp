@@ -102,7 +102,10 @@ void run_view(const ViewOptions& options) {
     viewer.scene_name = scene_options.scene.stem().string();
     viewer.camera = choose_public_camera(scene_options.camera, scene);
     viewer.settings = make_public_settings(options.render.settings);
+    viewer.preset = options.render.preset;
     viewer.exposure_ev = options.render.exposure_ev;
+    viewer.glare_strength = options.render.look.glare;
+    viewer.tone = tone_curve_names()[std::size_t(options.render.look.tone)];
     viewer.seed = scene_options.seed;
     viewer.time_s = scene_options.time_s;
     viewer.threads = scene_options.threads;
@@ -120,7 +123,7 @@ void add_view_command(CLI::App& app) {
     options->render.scene.scene = "lantern_court";
     options->render.scene.width = 1280;
     options->render.scene.height = 720;
-    add_render_options(*command, options->render);
+    add_picture_options(*command, options->render);
     add_view_options(*command, options->viewer);
     command->footer(
         "W A S D Q E fly, Shift is faster, the wheel changes the speed; drag with the right button to look.\n"

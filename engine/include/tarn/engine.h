@@ -64,6 +64,9 @@ struct Frame {
     std::uint32_t seed = 0;    // of all random numbers
     Settings settings;
     Display display;
+    // The picture is the mean of this frame and of those before it, one after the other, that ask for it too;
+    // a move of camera or scene starts over. While they are few, the picture before them shines through.
+    bool average = false;
 };
 
 // A scene as seen at one size. Keeps the last frame, from which the next one reuses samples. It keeps engine

@@ -30,6 +30,9 @@ struct FrameReport {
     std::uint64_t closest_rays = 0;
     std::uint64_t triangles_drawn = 0;  // rasterized; the rest is out of sight
     std::uint64_t triangles_total = 0;
+    std::uint32_t averaged_frames = 1;  // that the picture is the mean of
+    double relative_error =
+        0.0;  // left in that mean: noise of its luminance, relative to it; 0: a single frame
     std::map<std::string, std::uint64_t>
         counters;                  // what was dropped or clamped since the view was made, by name
     std::vector<PlanReason> plan;  // what the shaders were compiled with
@@ -46,7 +49,8 @@ struct Picture {
         return &rgb[3 * (std::size_t(y) * std::size_t(width_px) + std::size_t(x))];
     }
 
-    // The exposure in EV that maps the log-average luminance to middle grey, within +-20.
+    // The exposure in EV that makes the picture's middle a middle grey, or less where more than 2 % of its
+    // pixels, besides a few lamps, would be brighter than white; within +-20.
     float auto_exposure_ev() const;
 
     // Writes the radiance as 32-bit floats. The file is written whole or not at all. Error that names it.

@@ -38,6 +38,10 @@ class Settings {
     // As a preset has them. Error for an unknown name, with those that exist.
     static Settings preset(const std::string& name);
 
+    // The same light by an unbiased estimate that is fresh in every frame, without reuse or denoiser: for
+    // means that converge (Frame::average).
+    Settings fresh() const;
+
     static std::vector<SettingInfo> list();
     static std::vector<PresetInfo> list_presets();
 

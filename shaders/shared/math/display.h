@@ -1,10 +1,14 @@
-// From linear radiance to what a screen shows: exposure, Khronos PBR Neutral tone mapping, sRGB. The window
-// and the PNG files both run this text.
+// From linear radiance to what a screen shows: exposure, a tone curve, sRGB. The window and the PNG files
+// both run this text.
 #pragma once
 
 #include "shared/dialect.h"
 
 SHARED_BEGIN
+
+// Tone curves. Values are those of ToneCurve (core/display.h).
+CONSTANT uint TONE_CLIP = 0u;     // none: what is brighter than 1 is cut off, each channel by itself
+CONSTANT uint TONE_NEUTRAL = 1u;  // map_tone_neutral
 
 CONSTANT float BRIGHTEST_EXPOSED = 1e9f;  // white after tone mapping, far from overflow
 
@@ -46,12 +50,17 @@ FN float limit_exposed(float exposed) {
     return exposed > 0.0f ? min(exposed, BRIGHTEST_EXPOSED) : 0.0f;
 }
 
-// Display-encoded colour in [0, 1] of `radiance` times `exposure_scale` (2^EV).
-FN vec3 display_colour(vec3 radiance, float exposure_scale) {
+// Radiance times `exposure_scale` (2^EV), fit for tone mapping.
+FN vec3 expose(vec3 radiance, float exposure_scale) {
     vec3 exposed = radiance * exposure_scale;
-    vec3 limited = vec3(limit_exposed(exposed.x), limit_exposed(exposed.y), limit_exposed(exposed.z));
-    vec3 encoded = srgb_from_linear3(map_tone_neutral(limited));
-    return clamp(encoded, vec3(0.0f), vec3(1.0f));
+    return vec3(limit_exposed(exposed.x), limit_exposed(exposed.y), limit_exposed(exposed.z));
+}
+
+// Display-encoded colour in [0, 1] of exposed radiance by a tone curve TONE_*.
+FN vec3 encode_exposed(vec3 exposed, uint tone) {
+    vec3 mapped = exposed;
+    if (tone == TONE_NEUTRAL) mapped = map_tone_neutral(exposed);
+    return clamp(srgb_from_linear3(mapped), vec3(0.0f), vec3(1.0f));
 }
 
 SHARED_END

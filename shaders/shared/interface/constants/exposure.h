@@ -10,6 +10,7 @@ PASS_CONSTANTS(ExposureConstants) {
     float fixed_ev;     // taken instead where is_fixed is 1
     float fixed_scale;  // 2^fixed_ev
     uint is_fixed;
+    uint tone;          // TONE_*
     uint has_previous;  // whether there is a last frame
 };
 
