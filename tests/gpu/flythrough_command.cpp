@@ -60,6 +60,42 @@ TEST_F(FlythroughCommand, LightsAndObjectsOfAPathMove) {
     }
 }
 
+// A scene is flown along a path of its own, never along another scene's.
+TEST_F(FlythroughCommand, ASceneFliesItsOwnPathOrAnOrbit) {
+    const auto fly_through = [&](const std::string& scene) {
+        return run_tarn({"flythrough", scene, "--raw", "--size", "32x18", "--frames", "4", "--measured", "2",
+                         "--pictures", "0", "--reference-spp", "16", "--out", folder_.file("out")});
+    };
+    const ProcessResult own = fly_through("cornell");
+    EXPECT_EQ(own.status, 0) << own.err;
+    EXPECT_NE(own.out.find("cornell.json"), std::string::npos) << own.out;
+    const std::string file = folder_.file("furnace.glb");
+    std::filesystem::copy_file(TARN_BUILD_DIR "/content/furnace.glb", file);
+    const ProcessResult orbit = fly_through(file);
+    EXPECT_EQ(orbit.status, 0) << orbit.err;
+    EXPECT_NE(orbit.out.find("an orbit of its bounds"), std::string::npos) << orbit.out;
+    EXPECT_EQ(orbit.err.find("nothing but sky"), std::string::npos) << orbit.err;
+    std::filesystem::copy_file(TARN_SOURCE_DIR "/content/flythroughs/cornell.json",
+                               folder_.file("furnace.flythrough.json"));
+    const ProcessResult beside = fly_through(file);  // names nodes that the sphere has not, and says so
+    EXPECT_NE(beside.status, 0);
+}
+
+// The camera of the path is far from the sphere and looks past it.
+TEST_F(FlythroughCommand, APictureWithoutAnythingInItSaysSo) {
+    const ProcessResult result =
+        run_tarn({"flythrough", "point_over_plane", "--path", folder_.file("up.json"), "--raw"});
+    EXPECT_NE(result.status, 0);
+    std::ofstream(folder_.file("up.json"))
+        << R"({"name": "up", "duration_s": 1, "keys": [)"
+        << R"({"time_s": 0, "position": [0, 5, 0], "target": [0, 9, 1], "fov_deg": 30}]})";
+    const ProcessResult up = run_tarn({"flythrough", "point_over_plane", "--path", folder_.file("up.json"),
+                                       "--raw", "--size", "32x18", "--frames", "2", "--measured", "1",
+                                       "--reference-spp", "2", "--out", folder_.file("out")});
+    EXPECT_EQ(up.status, 0) << up.err;
+    EXPECT_NE(up.err.find("nothing but sky"), std::string::npos) << up.err;
+}
+
 TEST_F(FlythroughCommand, AStoppedFlightGoesOnToTheSameFrames) {
     const Arguments arguments = {tarn_program(),    "flythrough", "--methods",  "ris,restir-fast",
                                  "--size",          "64x36",      "--frames",   "120",
@@ -76,7 +112,7 @@ TEST_F(FlythroughCommand, AStoppedFlightGoesOnToTheSameFrames) {
             [&] { return std::filesystem::exists(folder_.path() / "broken/unfinished/frame000040.cbor"); },
             std::chrono::seconds(200)));
         process.send(SIGINT);
-        EXPECT_EQ(process.finish().status, 0);
+        EXPECT_EQ(process.finish().status, 130);
     }
     const auto load = [&](const std::string& out) {
         return Json::parse(read_text(folder_.path() / out / "results.json"))["flythroughs"][0];

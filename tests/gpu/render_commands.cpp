@@ -137,6 +137,17 @@ TEST(FlythroughCommand, WritesPicturesErrorsAndAReport) {
     }
 }
 
+TEST(RenderCommand, CtrlCKeepsTheMeanSoFar) {
+    const TemporaryFolder folder;
+    Process process({tarn_program(), "render", "cornell", "--accumulate", "--frames", "1000000", "--size",
+                     "64x36", "--out", folder.file("a.exr")});
+    ASSERT_TRUE(process.wait_until([&] { return !process.error_text().empty(); }, std::chrono::seconds(60)));
+    process.send(SIGINT);
+    const ProcessResult result = process.finish();
+    EXPECT_EQ(result.status, 130) << result.err;
+    EXPECT_TRUE(std::filesystem::exists(folder.file("a.exr"))) << result.err;
+}
+
 TEST(FlythroughCommand, CtrlCLeavesWholeFilesAndAReport) {
     const TemporaryFolder folder;
     const std::filesystem::path out = folder.path() / "fly";
@@ -147,7 +158,7 @@ TEST(FlythroughCommand, CtrlCLeavesWholeFilesAndAReport) {
         << process.error_text();
     process.send(SIGINT);
     const ProcessResult result = process.finish();
-    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.status, 130) << result.err;
     expect_whole_files(out);
     const nlohmann::json report = read_json(out / "report.json");
     expect_report(report);

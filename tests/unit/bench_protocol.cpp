@@ -131,6 +131,25 @@ TEST(BenchProtocol, EqualTimeNamesTheBestAndHowFarTheOthersAreFromIt) {
     EXPECT_GT(other["high"].get<double>(), frames);
 }
 
+TEST(BenchProtocol, WhatIsOffItsBudgetOrSmallerIsNotCompared) {
+    const TemporaryFolder folder;
+    ToySource source(std::vector<ToyFault>(2));
+    const Json results = run_toy_bench(toy_plan("uniform:samples=1,ris"), source, folder.path());
+    Json methods = results["scenes"][0]["methods"];
+    const auto compare = [&] { return describe_equal_time(methods)[1]; };
+    Json& cell = methods[0]["cells"][3];
+    cell["ms"]["median"] = 1.3 * cell["budget_ms"].get<double>();
+    EXPECT_EQ(compare()["best"], "ris");
+    EXPECT_TRUE(compare()["ratios"][0]["ratio"].is_null());
+    EXPECT_EQ(compare()["ratios"][0]["reason"], "took 52 ms");
+    cell["ms"]["median"] = cell["budget_ms"];
+    EXPECT_EQ(compare()["best"], "uniform:samples=1");
+    cell["resolution"] = 0.5;
+    EXPECT_EQ(compare()["ratios"][0]["reason"], "drawn at 50 % of the resolution");
+    methods[1]["cells"][3]["resolution"] = 0.25;
+    EXPECT_TRUE(compare()["best"].is_null());
+}
+
 TEST(BenchProtocol, AMovingCameraLeavesOneFrameACell) {
     const TemporaryFolder folder;
     ToySource source(std::vector<ToyFault>(2));

@@ -246,7 +246,7 @@ TEST(Interrupt, TheReferenceWritesWhatItHas) {
     ASSERT_TRUE(process.wait_until([&] { return !process.error_text().empty(); }, std::chrono::seconds(60)));
     process.send(SIGINT);
     const ProcessResult result = process.finish();
-    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.status, 130) << result.err;
     int width = 0, height = 0;
     EXPECT_EQ(read_exr_channels(folder.file("a.exr"), width, height).size(), 6u);
     EXPECT_EQ(width, 64);

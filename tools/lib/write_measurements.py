@@ -76,14 +76,15 @@ def write_bias(results):
 def write_equal_time(results):
     text = ("One frame of about the budget. The ratio is the method's relMSE over that of the method with the least "
             "(95 % interval). With few seeds a single firefly decides it: the last column leaves out the worst 0.1 % of "
-            "the pixels. A method that is too slow for the budget renders fewer pixels and enlarges the picture: the "
-            "third column is the share of width and height.\n\n")
+            "the pixels. A method that is too slow for the budget renders fewer pixels and enlarges the picture (the "
+            "third column is the share of width and height); such cells, and those more than a quarter off the budget, are not "
+            "compared.\n\n")
     rows = []
     for scene in results["scenes"]:
         cells = {m["label"]: c for m in scene["methods"] for c in m["cells"] if c["kind"] == "budget"}
         for group in scene["equal_time"]:
             for r in group["ratios"]:
-                ratio = "least" if r["label"] == group["best"] else interval({**r, "mean": r["ratio"]}, 2)
+                ratio = r["reason"] if r.get("reason") else "least" if r["label"] == group["best"] else interval({**r, "mean": r["ratio"]}, 2)
                 cell = cells[r["label"]]
                 rows.append([f"`{scene['name']}`", f"`{r['label']}`", f"{100 * cell['resolution']:.0f} %", number(r["ms"]),
                              number(r["rel_mse"]), ratio, number(cell["errors"]["rel_mse_trimmed"]["mean"])])

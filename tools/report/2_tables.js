@@ -74,6 +74,10 @@ function makeEqualTimeTable(scene) {
     element("span", {}, swatch(index), method.label),
     ...budgets.map((budget) => {
       const found = budget.ratios[index];
+      if (found.reason) {
+        return element("span", {class: "pm", title: `not compared: ${found.reason}`},
+          `${formatNumber(found.rel_mse)}, ${found.reason}`);
+      }
       if (found.label === budget.best) return `best: ${formatNumber(found.rel_mse)}`;
       return `${formatNumber(found.ratio)} x (${formatNumber(found.low)} … ${formatNumber(found.high)})`;
     })]}));

@@ -195,8 +195,14 @@ void print_equal_time(const Json& scene) {
     for (const Json& budget : scene["equal_time"]) {
         fmt::print("\n{} at {:g} ms: relMSE, and how many times that of {} it is (95 %)\n",
                    scene["name"].get<std::string>(), budget["budget_ms"].get<double>(),
-                   budget["best"].get<std::string>());
+                   budget["best"].is_null() ? "the best" : budget["best"].get<std::string>());
         for (const Json& ratio : budget["ratios"]) {
+            if (!ratio["reason"].is_null()) {
+                fmt::print("  {:<28} {:8.1f} ms  {:10.5f}  not compared: {}\n",
+                           ratio["label"].get<std::string>(), ratio["ms"].get<double>(),
+                           ratio["rel_mse"].get<double>(), ratio["reason"].get<std::string>());
+                continue;
+            }
             fmt::print("  {:<28} {:8.1f} ms  {:10.5f}  {:8.2f} x ({:.2f} .. {:.2f})\n",
                        ratio["label"].get<std::string>(), ratio["ms"].get<double>(),
                        ratio["rel_mse"].get<double>(), ratio["ratio"].get<double>(),

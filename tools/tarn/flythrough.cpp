@@ -6,8 +6,8 @@
 #include "bench/report.h"
 #include "bench/results.h"
 #include "commands.h"
-#include "core/data_files.h"
 #include "core/error.h"
+#include "flight_path.h"
 #include "flythrough_results.h"
 #include "flythrough_run.h"
 #include "gl/shader_source.h"
@@ -21,17 +21,10 @@ using Json = nlohmann::ordered_json;
 struct FlythroughCommand {
     RenderOptions options;
     FlightPlan plan;
-    std::string methods;  // empty: what the settings say
-    std::string path_file = "lantern_court";
+    std::string methods;    // empty: what the settings say
+    std::string path_file;  // empty: the scene's own
     std::string out = "out/flythrough";
 };
-
-// The file that --path means: a path, or the bare name of one of the project's own.
-std::filesystem::path resolve_path_file(const std::filesystem::path& path) {
-    if (std::filesystem::is_regular_file(path) || path.has_parent_path() || path.has_extension()) return path;
-    constexpr DataFolder FLYTHROUGHS = {"flythroughs", "TARN_FLYTHROUGH_DIR", TARN_FLYTHROUGH_DIR};
-    return locate_data_file(FLYTHROUGHS, path.string() + ".json");
-}
 
 std::string word_of_direct(const RenderSettings& settings) {
     return find_setting("direct").format(settings);
@@ -109,9 +102,10 @@ void write_results(const FlythroughCommand& command, RenderSession& session, con
 }
 
 void run_flythrough(FlythroughCommand& command) {
-    const CameraPath path = load_camera_path(resolve_path_file(command.path_file));
-    if (command.options.scene.scene.empty()) command.options.scene.scene = path.scene;
-    if (command.options.scene.scene.empty()) throw Error("{}: names no scene; give one", command.path_file);
+    SceneOptions& of_scene = command.options.scene;
+    std::optional<FlightPath> chosen = find_path_file(command.path_file, of_scene.scene);
+    if (chosen && of_scene.scene.empty()) of_scene.scene = chosen->path.scene;
+    if (of_scene.scene.empty()) throw Error("{}: names no scene; give one", chosen->origin);
     FlightPlan& plan = command.plan;
     if (command.methods.empty()) {
         plan.methods = {
@@ -121,7 +115,15 @@ void run_flythrough(FlythroughCommand& command) {
     }
     check_output_folder(command.options.json_file);
     create_folder(command.out);
-    RenderSession session(command.options, [&](Scene& scene) { add_tracks(scene, path.tracks); });
+    RenderSession session(command.options, [&](Scene& scene) {
+        if (chosen) add_tracks(scene, chosen->path.tracks);
+    });
+    if (!chosen) {
+        chosen = make_flight_path(session.loaded().scene, session.loaded().world,
+                                  double(of_scene.width) / of_scene.height);
+    }
+    const CameraPath& path = chosen->path;
+    fmt::print("flying {}\n", chosen->origin);
     const std::filesystem::path out = command.out;
     const WorkFolder work(out / "unfinished", describe_key(command, path, session));
     std::vector<std::unique_ptr<Renderer>> renderers;
@@ -157,9 +159,11 @@ void add_flythrough_command(CLI::App& app) {
     // The path says where from and when.
     sub->remove_option(sub->get_option("--camera"));
     sub->remove_option(sub->get_option("--time"));
-    sub->add_option("--path", command->path_file,
-                    "Path of the camera, of lights and objects: a JSON file, or the name of an own path")
-        ->capture_default_str();
+    sub->add_option(
+        "--path", command->path_file,
+        "Path of the camera, of lights and objects: a JSON file, or the name of an own path "
+        "(default: the scene's own by its name or beside its file, that of an animated camera, or "
+        "an orbit)");
     sub->add_option("--out", command->out, "Folder for the pictures and report.json")->capture_default_str();
     sub->add_option("--methods", command->methods,
                     "Methods to compare, by their names in bench (default: the one that the settings give)");

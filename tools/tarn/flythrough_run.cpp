@@ -54,6 +54,11 @@ double mean_absolute_difference(const Image& a, const Image& b) {
     return sum / double(a.values.size());
 }
 
+bool is_empty(const GBuffer& gbuffer) {
+    const auto seen = gbuffer.seen->download<glm::uvec2>();
+    return std::all_of(seen.begin(), seen.end(), [](const glm::uvec2& s) { return s.x == INVALID_INDEX; });
+}
+
 class Flyer {
   public:
     Flyer(const FlightPlan& plan, const CameraPath& path, const RenderOptions& options,
@@ -150,13 +155,17 @@ class Flyer {
         move_to(frame);
         std::vector<FlightFrame> records(renderers_.size());
         std::vector<Image> radiance(renderers_.size());
+        bool sees_nothing = true;
         for (std::size_t method = 0; method < renderers_.size(); ++method) {
             const FrameOutput output = render(method, frame);
             records[method].timings = output.timings;
             records[method].rays = output.shadow_rays.traced;
             if (is_pictured(frame)) radiance[method] = renderers_[method]->read_radiance(output.radiance);
+            if (is_measured(frame)) sees_nothing = sees_nothing && is_empty(output.gbuffer);
         }
         double reference_error = 0.0;
+        if (is_measured(frame) && sees_nothing)
+            warn_once(fmt::format("frame {}: nothing but sky is in view: its errors say nothing", frame));
         if (is_pictured(frame)) write_pictures(frame, radiance);
         if (is_measured(frame)) {
             const auto truth = find_truth(frame);

@@ -1,5 +1,5 @@
 // tarn: renders, measures and shows scenes. Exit status: 0; 1 with one line on stderr where a file,
-// a driver or a disk fails; 2 for wrong usage.
+// a driver or a disk fails; 2 for wrong usage; 130 after Ctrl-C, whatever was kept.
 #include <cstdio>
 #include <exception>
 
@@ -7,10 +7,13 @@
 #include "core/error.h"
 #include "core/version.h"
 #include "game/window.h"
+#include "interrupt.h"
 #include "rays/ray_tracer.h"
 
 namespace tarn {
 namespace {
+
+constexpr int INTERRUPTED = 130;  // 128 + SIGINT, as shells have it
 
 int run(int argc, char** argv) {
     CLI::App app{
@@ -32,7 +35,7 @@ int run(int argc, char** argv) {
     add_view_command(app);
     try {
         app.parse(argc, argv);
-        return 0;
+        return interrupt_flag() ? INTERRUPTED : 0;
     } catch (const CLI::ParseError& error) {
         const int status = app.exit(error);
         return status == 0 ? 0 : 2;
@@ -47,6 +50,6 @@ int main(int argc, char** argv) {
         return tarn::run(argc, argv);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "tarn: %s\n", error.what());
-        return 1;
+        return tarn::interrupt_flag() ? tarn::INTERRUPTED : 1;
     }
 }

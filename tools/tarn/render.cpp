@@ -7,6 +7,7 @@
 #include "core/log.h"
 #include "core/version.h"
 #include "image_io/image_io.h"
+#include "interrupt.h"
 #include "metrics/frame_mean.h"
 #include "metrics/mean_error.h"
 #include "session.h"
@@ -110,6 +111,9 @@ void run_render(RenderCommand command) {
         if (command.accumulate || last) radiance = renderer.read_radiance(output.radiance);
         if (command.accumulate) mean.add(radiance), error.add(radiance);
         progress.update(std::uint64_t(frame) + 1);
+        if (last || !interrupt_flag()) continue;
+        if (!command.accumulate) throw Error("interrupted; nothing was written");
+        break;  // the mean so far is a picture too
     }
     if (command.accumulate) radiance = mean.mean();
     write_picture(command, radiance);

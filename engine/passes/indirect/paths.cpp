@@ -46,7 +46,8 @@ VertexRays light_vertices(const FrameContext& frame, const SampleSlot& slot, int
     VertexRays rays;
     rays.shadow = frame.take_pixel_rows("indirect/shadow_rays", RAY_ROWS, BufferUse::SHARED);
     const IndirectConstants constants = constants_for(frame, slot, bounce);
-    if (constants.ray_share > 0.0f) rays.next = frame.take_pixel_rows("indirect/rays", RAY_ROWS, BufferUse::SHARED);
+    if (constants.ray_share > 0.0f)
+        rays.next = frame.take_pixel_rows("indirect/rays", RAY_ROWS, BufferUse::SHARED);
     const Rows states = frame.take_pixel_rows("indirect/path_states", PATH_STATE_ROWS, BufferUse::DEVICE);
     PassRecorder pass = frame.pass("indirect/vertices");
     pass.constants(constants)

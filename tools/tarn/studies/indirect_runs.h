@@ -1,5 +1,5 @@
-// Indirect light alone, as studies of it look at it: of frames, and of references. Direct light is taken out of
-// all pictures: it is the same, bit by bit, with and without indirect light.
+// Indirect light alone, as studies of it look at it: of frames, and of references. Direct light is taken out
+// of all pictures: it is the same, bit by bit, with and without indirect light.
 #pragma once
 
 #include <limits>
