@@ -98,9 +98,6 @@ class IndirectScenes : public OnContext<testing::TestWithParam<const char*>> {
 };
 
 TEST_P(IndirectScenes, FirstFramesHaveTheReferencesMean) {
-    if (GetParam() == std::string("lantern_court") && !is_thorough())
-        GTEST_SKIP()
-            << "known to fail: 0.44 % too dark (p 1.4e-5), not explained; TARN_TEST_SEEDS=32 runs it";
     EXPECT_TRUE(test(run(FIRST_FRAME_SEEDS_FACTOR * seed_count(), 0), "frame 1"));
 }
 
