@@ -11,9 +11,11 @@ namespace {
 // in the next frame.
 constexpr double PRESET_RADIUS_PX = 16.0;
 
-// Path samples are reused by the rules of light samples, where indirect light is on.
+// Path samples are reused by the rules of light samples, where indirect light is on. What is kept for many
+// frames must not be worth much more than its lamp: all paths look for lamps at their end.
 void reuse_paths_alike(RenderSettings& settings) {
     settings.indirect.reuse = settings.direct.reuse;
+    settings.indirect.light_rays = 1.0;
 }
 
 RenderSettings fast_settings() {

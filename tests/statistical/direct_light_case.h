@@ -79,7 +79,6 @@ class DirectLightCase {
         settings.camera = camera_;
         settings.bounces = bounces;
         settings.spp = spp;
-        settings.light_tree = name_ == "lantern_court";  // less noise where lamps are many
         settings.seed = 7;
         const ReferenceResult reference = find_reference(scene_->world, *scene_->tracer, settings);
         EXPECT_EQ(reference.non_finite, 0u);
@@ -163,9 +162,7 @@ class DirectLightTest : public OnContext<testing::TestWithParam<const char*>> {
         const std::filesystem::path file = DirectLightCase::file_of(GetParam());
         if (!std::filesystem::exists(file)) GTEST_SKIP() << file.string() << " is not here";
         if (!case_ || case_->name() != GetParam()) {
-            // By the light tree fewer samples have less noise.
-            const std::uint64_t spp = GetParam() == std::string("lantern_court") ? 1024 : 4096;
-            case_ = std::make_unique<DirectLightCase>(GetParam(), draws_per_pixel, spp);
+            case_ = std::make_unique<DirectLightCase>(GetParam(), draws_per_pixel);
         }
     }
 

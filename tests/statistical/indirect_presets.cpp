@@ -21,9 +21,9 @@ namespace {
 
 constexpr int WIDTH_PX = 96;
 constexpr int HEIGHT_PX = 54;
-constexpr int SEEDS = 4;
+constexpr int SEEDS = 12;
 constexpr int FRAMES = 40;
-constexpr int CANDIDATES = 64;
+constexpr int CANDIDATES = 8;
 constexpr double FAR_ABOVE = 50.0;       // the picture's mean
 constexpr double MOST_LEFT_OUT = 0.005;  // of all pixels
 constexpr double ENERGY_BOUND = 0.05;
@@ -98,6 +98,7 @@ class IndirectPresets : public OnContext<testing::TestWithParam<const char*>> {
     static IndirectSettings truth_settings() {
         IndirectSettings indirect;
         indirect.mode = IndirectMode::PATH;
+        indirect.light_rays = 1.0;
         return indirect;
     }
 
