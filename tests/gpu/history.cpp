@@ -167,6 +167,7 @@ RenderSettings indirect_settings(IndirectResolution resolution) {
     settings.direct.mode = DirectMode::RIS;
     settings.indirect.mode = IndirectMode::RESTIR;
     settings.indirect.resolution = resolution;
+    settings.indirect.lights = PathLights::POWER;  // a light tree that was fitted anew keeps its old shape
     return settings;
 }
 
