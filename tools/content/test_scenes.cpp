@@ -78,7 +78,7 @@ void build_corner(GltfWriter& writer, const SceneOptions&) {
     add_object(writer, "right wall", make_quad({X, 0, -Z}, {0, 0, 2 * Z}, {0, Y, 0}), white);
     add_object(writer, "parting wall", make_box({-X, 0, -0.1f}, {0.6f, Y, 0}), white);
     add_object(writer, "dim lamp", make_quad({-0.9f, Y - 0.01f, 1.2f}, {0.3f, 0, 0}, {0, 0, 0.3f}), dim);
-    add_object(writer, "strong lamp", make_quad({-0.8f, 0.8f, -1.3f}, {0, 0, -0.6f}, {0, 0.6f, 0}), strong);
+    add_object(writer, "strong lamp", make_quad({-0.8f, 0.8f, -1.9f}, {0, 0, 0.6f}, {0, 0.6f, 0}), strong);
     writer.add_camera("main", {-1.2f, 1.4f, 2.8f}, {0.9f, 1.0f, -1.0f}, 55.0);
 }
 
