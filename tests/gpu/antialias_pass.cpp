@@ -247,7 +247,9 @@ double trace_of(const glm::vec4& bad, double scale, bool moves, const Defines& p
         const Pixels found = stage.render(see_even(glm::vec3(0.5f)));
         if (!spoils) error = std::max(error, greatest_difference(found, expected));
     }
-    if (planted.empty()) EXPECT_GT(stage.count(COUNTER_BAD_PICTURE), 0u);
+    if (planted.empty()) {
+        EXPECT_GT(stage.count(COUNTER_BAD_PICTURE), 0u);
+    }
     return error;
 }
 

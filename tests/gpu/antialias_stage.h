@@ -134,15 +134,7 @@ class AntialiasStage {
     }
 
     void bind_block() {
-        FrameBlock block{};
-        block.frame_camera_position = glm::vec4(camera_.position, 0.0f);
-        block.frame_camera_right = glm::vec4(camera_.right, 0.0f);
-        block.frame_camera_up = glm::vec4(camera_.up, 0.0f);
-        block.frame_camera_forward = glm::vec4(camera_.forward, 0.0f);
-        block.frame_previous_position = glm::vec4(previous_camera_.position, 0.0f);
-        block.frame_previous_right = glm::vec4(previous_camera_.right, 0.0f);
-        block.frame_previous_up = glm::vec4(previous_camera_.up, 0.0f);
-        block.frame_previous_forward = glm::vec4(previous_camera_.forward, 0.0f);
+        FrameBlock block = make_camera_block(camera_, previous_camera_);
         block.frame_size = glm::uvec4(size_px(), frame_, 0u);
         block.frame_full = glm::uvec4(size_px(), 1u, 0u);
         block.frame_jitter = glm::vec4(jitter_px_, previous_jitter_px_);

@@ -77,15 +77,47 @@ TEST_F(FlythroughCommand, ASceneFliesItsOwnPathOrAnOrbit) {
     EXPECT_EQ(orbit.err.find("nothing but sky"), std::string::npos) << orbit.err;
     std::filesystem::copy_file(TARN_SOURCE_DIR "/content/flythroughs/cornell.json",
                                folder_.file("furnace.flythrough.json"));
-    const ProcessResult beside = fly_through(file);  // names nodes that the sphere has not, and says so
-    EXPECT_NE(beside.status, 0);
+    // It moves nodes that the sphere has not: the message shows which path was taken.
+    const ProcessResult beside = fly_through(file);
+    EXPECT_EQ(beside.status, 1);
+    EXPECT_NE(beside.err.find("node"), std::string::npos) << beside.err;
 }
 
-// The camera of the path is far from the sphere and looks past it.
-TEST_F(FlythroughCommand, APictureWithoutAnythingInItSaysSo) {
+// A triangle, and a camera that an animation carries past it.
+void write_animated_camera(const std::filesystem::path& file) {
+    const float numbers[] = {-1, -1, 0, 1, -1, 0, 0, 1, 0, 0, 1, -0.5f, 0, 3, 0.5f, 0, 3};
+    std::ofstream(std::filesystem::path(file).replace_extension(".bin"), std::ios::binary)
+        .write(reinterpret_cast<const char*>(numbers), sizeof(numbers));
+    std::ofstream(file) << R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
+        "nodes": [{"mesh": 0}, {"camera": 0}],
+        "cameras": [{"name": "rider", "type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "buffers": [{"uri": "ride.bin", "byteLength": 68}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 8},
+                        {"buffer": 0, "byteOffset": 44, "byteLength": 24}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                       "min": [-1, -1, 0], "max": [1, 1, 0]},
+                      {"bufferView": 1, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1]},
+                      {"bufferView": 2, "componentType": 5126, "count": 2, "type": "VEC3"}],
+        "animations": [{"samplers": [{"input": 1, "output": 2}],
+                        "channels": [{"sampler": 0, "target": {"node": 1, "path": "translation"}}]}]})";
+}
+
+TEST_F(FlythroughCommand, AnAnimatedCameraIsFollowed) {
+    const std::filesystem::path file = folder_.path() / "ride.gltf";
+    write_animated_camera(file);
     const ProcessResult result =
-        run_tarn({"flythrough", "point_over_plane", "--path", folder_.file("up.json"), "--raw"});
-    EXPECT_NE(result.status, 0);
+        run_tarn({"flythrough", file.string(), "--raw", "--size", "32x18", "--frames", "3", "--measured", "3",
+                  "--pictures", "3", "--reference-spp", "2", "--out", folder_.file("out")});
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_NE(result.out.find("the way of its camera 'rider'"), std::string::npos) << result.out;
+    EXPECT_EQ(result.err.find("nothing but sky"), std::string::npos) << result.err;
+    EXPECT_NE(read_text(folder_.path() / "out/frame_0000.png"),
+              read_text(folder_.path() / "out/frame_0002.png"));
+}
+
+// The camera of the path looks up from above the plane.
+TEST_F(FlythroughCommand, APictureWithoutAnythingInItSaysSo) {
     std::ofstream(folder_.file("up.json"))
         << R"({"name": "up", "duration_s": 1, "keys": [)"
         << R"({"time_s": 0, "position": [0, 5, 0], "target": [0, 9, 1], "fov_deg": 30}]})";

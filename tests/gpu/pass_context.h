@@ -10,6 +10,20 @@
 
 namespace tarn::test {
 
+// The cameras of this frame and of the last one, perspective both; nothing else.
+inline FrameBlock make_camera_block(const CameraRecord& camera, const CameraRecord& previous) {
+    FrameBlock block{};
+    block.frame_camera_position = glm::vec4(camera.position, 0.0f);
+    block.frame_camera_right = glm::vec4(camera.right, 0.0f);
+    block.frame_camera_up = glm::vec4(camera.up, 0.0f);
+    block.frame_camera_forward = glm::vec4(camera.forward, 0.0f);
+    block.frame_previous_position = glm::vec4(previous.position, 0.0f);
+    block.frame_previous_right = glm::vec4(previous.right, 0.0f);
+    block.frame_previous_up = glm::vec4(previous.up, 0.0f);
+    block.frame_previous_forward = glm::vec4(previous.forward, 0.0f);
+    return block;
+}
+
 class PassContext {
   public:
     PassContext()

@@ -2,6 +2,7 @@
 // for all, has the reference's mean, and none of them lets a whole frame see the sky alone or not at all.
 #include "core/statistics.h"
 #include "motion_run.h"
+#include "support/indirect_scenes.h"
 
 namespace tarn::test {
 namespace {
@@ -90,6 +91,31 @@ TEST_F(SkyAndLights, NegativeControlTheSkysShareForgottenWherePathsMeetSurfacesI
         return settings;
     };
     expect_found(make_lamps_under_a_sky(), method, "TARN_PLANT_FORGET_SKY_SHARE_OF_PATHS");
+}
+
+// Candidates and rays share lamps that places see from close by.
+MotionMethod path_with_rays(const std::string& name, PathLights lights, double light_rays) {
+    MotionMethod method = indirect(name, IndirectMode::PATH);
+    RenderSettings settings = method.settings(0);
+    settings.indirect.lights = lights;
+    settings.indirect.light_rays = light_rays;
+    method.settings = [settings](int) { return settings; };
+    return method;
+}
+
+// All light is that of single paths, and noisy: the tests see 3 % of the picture. The mistakes below are 8
+// and 37 %.
+TEST_F(SkyAndLights, LampsCloseToWhatTheyLightAreCountedOnce) {
+    expect_no_bias(make_lamps_close_to_the_ceiling(),
+                   {path_with_rays("tree", PathLights::TREE, 1.0),
+                    path_with_rays("tree, some rays", PathLights::TREE, 0.25),
+                    path_with_rays("power", PathLights::POWER, 1.0)},
+                   4 * SEEDS, {0.03, 0.2});
+}
+
+TEST_F(SkyAndLights, NegativeControlDensitiesThatCandidatesDoNotHaveAreFound) {
+    for (const char* bug : {"TARN_PLANT_AREA_OF_NEAR_LIGHTS", "TARN_PLANT_OTHER_NORMAL"})
+        expect_found(make_lamps_close_to_the_ceiling(), path_with_rays("tree", PathLights::TREE, 1.0), bug);
 }
 
 // Rays along the BRDF end on a lamp that is half there half of the time.

@@ -56,6 +56,19 @@ inline MovingScene view_room(ToyScene toy) {
     return moving;
 }
 
+// A wide lamp close under the ceiling, and small ones that shine at it too: what the camera sees is lit by
+// places that have one lamp in much of their view and are lit by the others as well. Nothing moves.
+inline MovingScene make_lamps_close_to_the_ceiling() {
+    ToyScene toy = make_room();
+    toy.add_instance(add_hanging_quad(toy, emissive_material({8.0f, 7.0f, 6.0f}), 0.6f),
+                     face_up({0.2, 2.1, -0.2}));
+    const MeshIndex small = add_hanging_quad(toy, emissive_material({40.0f, 40.0f, 50.0f}), 0.1f);
+    for (const double x : {-1.2, -0.8, 1.1}) toy.add_instance(small, face_up({x, 1.6, 0.3 * x}));
+    MovingScene still = view_room(std::move(toy));
+    still.pose = [](Scene&, int) {};
+    return still;
+}
+
 // The lamp grows (or shrinks) by `rate` a frame, turns and drifts.
 inline MovingScene make_breathing_uplight(double rate) {
     ToyScene toy = make_room();

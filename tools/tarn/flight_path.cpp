@@ -103,6 +103,7 @@ std::optional<FlightPath> find_path_file(const std::string& option, const std::f
 
 FlightPath make_flight_path(const Scene& scene, const World& world, double aspect) {
     for (const Camera& camera : scene.cameras) {
+        if (animation_duration_s(scene) <= 0.0) break;
         if (camera.orthographic || !is_animated(scene, camera.node)) continue;
         return follow_camera(scene, camera, bounding_radius_m(world));
     }

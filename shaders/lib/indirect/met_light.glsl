@@ -15,6 +15,9 @@ MetLight find_met_light(PathState s, HitRecord hit, float ray_share) {
     uint found = s.pdf > 0.0f && drawn.light != INVALID_INDEX ? 1u : 0u;
     for (; found != 0u; found = 0u) {
         IncidentLight incident = load_incident_light(drawn, s.position);
+#ifdef TARN_PLANT_OTHER_NORMAL
+        s.normal = -s.normal;
+#endif
         float density = float(candidate_count) * next_event_pdf(drawn, incident, s.position, s.normal);
 #ifdef TARN_PLANT_FORGET_LIGHT_PDF
         density = 0.0f;

@@ -196,6 +196,7 @@ FN LightCandidate draw_on_light_near(uint index, float pmf, vec2 u, vec3 point) 
 FN float pdf_on_light_near(LightSample drawn, float pmf, vec3 point) {
     Light light = load_light(drawn.light);
     float pdf = ratio_or_zero(pmf, triangle_area(light));
+#ifndef TARN_PLANT_AREA_OF_NEAR_LIGHTS
     vec3 to_light = light.position - point;
     uint near = is_light_near(light, point) ? 1u : 0u;
     for (; near != 0u; near = 0u) {
@@ -205,6 +206,7 @@ FN float pdf_on_light_near(LightSample drawn, float pmf, vec3 point) {
         vec3 to_drawn = to_light + light.edge1 * drawn.uv.x + light.edge2 * drawn.uv.y;
         pdf = near_light_pdf(light, to_drawn, seen.solid_angle, pmf);
     }
+#endif
     return pdf;
 }
 

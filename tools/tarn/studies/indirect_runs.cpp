@@ -2,9 +2,7 @@
 
 #include <algorithm>
 
-#include "core/error.h"
 #include "find_truth.h"
-#include "interrupt.h"
 
 namespace tarn {
 namespace {
@@ -16,23 +14,14 @@ struct Frames {
 
 Frames render_frames(Renderer& renderer, const StudySequence& sequence) {
     Frames result;
-    FrameInput input;
-    input.camera = sequence.camera;
-    input.settings = sequence.settings;
-    input.seed = sequence.seed;
-    renderer.reset_history();
-    for (int i = 0; i < sequence.warm_up + sequence.frames; ++i) {
-        if (interrupt_flag()) throw Error("interrupted; nothing is kept of a study that did not end");
-        input.frame = std::uint32_t(i);
-        const FrameOutput output = renderer.render(input);
-        if (i < sequence.warm_up) continue;
+    render_sequence(renderer, sequence, [&](int, const FrameOutput& output, RenderSettings&) {
         double ms = 0.0;
         for (const PassTiming& pass : output.timings.passes) {
             if (pass.name.starts_with("indirect/")) ms += pass.ms;
         }
         result.indirect_ms = std::min(result.indirect_ms, ms);
         result.radiance.push_back(renderer.read_radiance(output.radiance));
-    }
+    });
     return result;
 }
 

@@ -40,9 +40,10 @@ Variant measure(RenderSession& session, const OptionStudy& study, const StudySeq
         sequence.seed += std::uint32_t(k);
         FrameMean mean;
         Image last;
-        render_sequence(session.renderer(), sequence, [&](int, const Image& radiance, RenderSettings&) {
-            mean.add(radiance);
-            last = radiance;
+        Renderer& renderer = session.renderer();
+        render_sequence(renderer, sequence, [&](int, const FrameOutput& output, RenderSettings&) {
+            last = renderer.read_radiance(output.radiance);
+            mean.add(last);
         });
         variant.means.push_back(mean.mean());
         variant.lasts.push_back(std::move(last));

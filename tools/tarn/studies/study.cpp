@@ -41,7 +41,7 @@ void render_sequence(Renderer& renderer, const StudySequence& sequence, const Fr
         input.frame = std::uint32_t(i);
         const FrameOutput output = renderer.render(input);
         if (i < sequence.warm_up) continue;
-        visit(i - sequence.warm_up, renderer.read_radiance(output.radiance), input.settings);
+        visit(i - sequence.warm_up, output, input.settings);
     }
 }
 

@@ -52,9 +52,9 @@ struct StudySequence {
 };
 
 // Called with each frame after the warm-up; may change the settings of the next one (debug views).
-using FrameVisitor = std::function<void(int frame, const Image& radiance, RenderSettings& settings)>;
+using FrameVisitor = std::function<void(int frame, const FrameOutput& output, RenderSettings& settings)>;
 
-// Throws Error on Ctrl-C. Reads back none of the warm-up.
+// Throws Error on Ctrl-C.
 void render_sequence(Renderer& renderer, const StudySequence& sequence, const FrameVisitor& visit);
 
 // The mean of all values of all images but number `left_out`.

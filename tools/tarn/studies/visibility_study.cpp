@@ -69,7 +69,8 @@ void measure_seed(Renderer& renderer, const StudySequence& sequence, ModeImages&
     StudySequence looked_at = sequence;
     looked_at.frames += LIGHT_FRAMES;
     looked_at.settings.direct.debug_view = DebugView::VISIBILITY;
-    render_sequence(renderer, looked_at, [&](int frame, const Image& radiance, RenderSettings& next) {
+    render_sequence(renderer, looked_at, [&](int frame, const FrameOutput& output, RenderSettings& next) {
+        const Image radiance = renderer.read_radiance(output.radiance);
         if (frame == TERM_FRAME) images.terms.push_back(radiance);
         if (frame == UNSHADOWED_FRAME) images.unshadowed.push_back(radiance);
         if (frame >= LIGHT_FRAMES) light.add(radiance);
