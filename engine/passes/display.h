@@ -27,6 +27,11 @@ std::string list_display_views();
 // The view of that name. Throws Error that lists the names.
 DisplayView parse_display_view(const std::string& name);
 
+// Whether a view is one of the light of a picture; else it is one of its surfaces.
+inline bool shows_light(DisplayView view) {
+    return view == DisplayView::RADIANCE || view == DisplayView::LUMINANCE;
+}
+
 // What is shown of a frame, and how.
 struct DisplayChoice {
     DisplayView view = DisplayView::RADIANCE;

@@ -155,9 +155,9 @@ AntialiasPlan plan_antialias(const RenderSettings& settings) {
     constexpr int PLACES = 64;
     const double scale = settings.antialias.scale;
     AntialiasPlan plan;
-    plan.runs = settings.antialias.runs() && settings.direct.debug_view == DebugView::NONE;
     plan.enlarges = scale < 1.0;
-    if (!plan.runs) return plan;
+    if (!settings.antialias.moves_samples() || settings.direct.debug_view != DebugView::NONE) return plan;
+    plan.runs = settings.antialias.joins_frames();
     plan.jitter_count = PLACES;
     while (plan.jitter_count * scale * scale < PLACES) plan.jitter_count *= 2;
     return plan;

@@ -46,11 +46,11 @@ Renderer::Values Renderer::record_frame(const FrameContext& frame, const FrameIn
     ReflectedLight direct = light_directly(frame, gbuffer);
     ReflectedLight indirect;
     if (frame.plan.indirect.runs) indirect = light_indirectly(frame, gbuffer);
+    const Picture changes = samples ? compare_light(frame, gbuffer, *samples) : nullptr;
     if (frame.plan.denoise.runs) {
-        const Picture changes = samples ? compare_light(frame, gbuffer, *samples) : nullptr;
         direct = denoise(frame, gbuffer, {direct, std::exchange(indirect, {}), changes});
     }
-    Picture radiance = finish(frame, gbuffer, composite(frame, gbuffer, direct, indirect));
+    Picture radiance = finish(frame, gbuffer, {composite(frame, gbuffer, direct, indirect), changes});
     averaged_frames_ = 1;
     average_sums_ = nullptr;
     if (input.average) radiance = average(frame, radiance);
@@ -90,13 +90,13 @@ ReflectedLight Renderer::denoise(const FrameContext& frame, const GBuffer& gbuff
 }
 
 // At the size of what is shown.
-Picture Renderer::finish(const FrameContext& frame, const GBuffer& gbuffer, const Picture& radiance) {
-    if (!frame.plan.antialias.runs) return enlarge(frame, radiance);
-    KeptPicture kept{nullptr, frame.settings};
+Picture Renderer::finish(const FrameContext& frame, const GBuffer& gbuffer, const AntialiasInput& input) {
+    if (!frame.plan.antialias.runs) return enlarge(frame, input.radiance);
+    KeptPicture kept{nullptr, frame.settings, frame.plan.features.motion};
     kept.settings.antialias.scale = 1.0;  // the picture has its size at every scale
     auto previous = find_previous(frame, history_.picture);
     if (previous && previous->value().settings != kept.settings) previous.reset();
-    kept.picture = antialias(frame, gbuffer, radiance, previous);
+    kept.picture = antialias(frame, gbuffer, input, previous);
     history_.picture.keep(frame.frame, kept);
     return kept.picture;
 }

@@ -127,6 +127,8 @@ void Renderer::choose_size(const RenderSettings& settings) {
 }
 
 glm::vec2 Renderer::find_jitter_px(const FrameInput& input) const {
+    // Views of surfaces show single frames, whose edges would tremble.
+    if (input.display && !shows_light(input.display->choice.view)) return input.jitter_px;
     return input.jitter_px + find_jitter(input.frame, plan_.antialias.jitter_count);
 }
 

@@ -123,7 +123,7 @@ class Renderer {
     Picture average(const FrameContext& frame, const Picture& radiance);
     Picture show(const FrameContext& frame, const DisplayInput& input, const Picture& radiance,
                  const GBuffer& gbuffer);
-    Picture finish(const FrameContext& frame, const GBuffer& gbuffer, const Picture& radiance);
+    Picture finish(const FrameContext& frame, const GBuffer& gbuffer, const AntialiasInput& input);
     void choose_size(const RenderSettings& settings);
     glm::vec2 find_jitter_px(const FrameInput& input) const;
     void fit_light_tree();

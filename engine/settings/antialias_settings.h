@@ -5,7 +5,8 @@ namespace tarn {
 
 enum class AntialiasMode {
     OFF,
-    TAA,  // each frame samples another place of each pixel, and joins the picture of the last ones
+    JITTER,  // each frame samples another place of each pixel: for means over many frames
+    TAA,     // each frame samples another place of each pixel, and joins the picture of the last ones
 };
 
 // What the picture is a mean of.
@@ -19,7 +20,8 @@ struct AntialiasSettings {
     AntialiasMean mean = AntialiasMean::RADIANCE;
     double scale = 1.0;  // width and height of what is rendered, as a share of the picture's
 
-    bool runs() const { return mode != AntialiasMode::OFF; }
+    bool moves_samples() const { return mode != AntialiasMode::OFF; }
+    bool joins_frames() const { return mode == AntialiasMode::TAA; }
 
     bool operator==(const AntialiasSettings&) const = default;
 };

@@ -6,6 +6,7 @@ namespace tarn {
 RenderSettings fresh_settings(const RenderSettings& settings) {
     RenderSettings fresh = settings;
     fresh.denoise.mode = DenoiseMode::OFF;
+    if (fresh.antialias.joins_frames()) fresh.antialias.mode = AntialiasMode::JITTER;
     if (fresh.direct.mode == DirectMode::RESTIR) {
         fresh.direct.mode = DirectMode::RIS;
         fresh.direct.brdf_candidate = true;

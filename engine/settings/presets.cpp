@@ -43,6 +43,7 @@ RenderSettings clean_settings() {
     settings.direct.brdf_candidate = true;
     settings.indirect.mode = IndirectMode::RESTIR;
     settings.denoise.mode = DenoiseMode::SVGF;
+    settings.antialias.mode = AntialiasMode::TAA;
     return settings;
 }
 
@@ -98,8 +99,8 @@ RenderSettings student_settings() {
 
 const std::vector<Preset>& preset_table() {
     static const std::vector<Preset> table = {
-        {"clean", "fast and one ray along the BRDF a pixel, with indirect light, denoised", clean_settings(),
-         0.08},
+        {"clean", "fast and one ray along the BRDF a pixel, with indirect light, denoised and antialiased",
+         clean_settings(), 0.08},
         {"fast", "two shadow rays a pixel, visibility averaged: some bias, least noise for its time",
          fast_settings(), 0.05},
         {"balanced",

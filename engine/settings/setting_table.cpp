@@ -220,19 +220,22 @@ void add_denoise_rows(std::vector<Setting>& table) {
 void add_antialias_rows(std::vector<Setting>& table) {
     using S = AntialiasSettings;
     SettingRows<AntialiasPart> rows(table, "");
-    rows.choose("antialias",
-                "Smooth edges and fine texture: not at all, or over time (TAA): each frame samples another "
-                "place of each pixel and joins the picture of the last ones",
-                &S::mode, {"off", "taa"})
+    rows.choose(
+            "antialias",
+            "Smooth edges and fine texture: not at all; jitter, where each frame samples another place of "
+            "each pixel, for means over frames; or over time (TAA), where each joins the picture of the "
+            "last ones too",
+            &S::mode, {"off", "jitter", "taa"})
         .number("scale", "x",
                 "Width and height of what is rendered, as a share of the picture's; the picture is enlarged, "
                 "by bilinear interpolation or by antialias=taa, which joins the samples of several frames",
                 &S::scale, 0.25, 1);
-    rows.where(&S::runs).choose(
-        "antialias-mean",
-        "What a pixel is the mean of: radiance, which keeps all energy, or radiance as the display shows it, "
-        "which smooths the edges of lamps too",
-        &S::mean, {"radiance", "display"});
+    rows.where(&S::joins_frames)
+        .choose("antialias-mean",
+                "What a pixel is the mean of: radiance, which keeps all energy, or radiance as the display "
+                "shows it, "
+                "which smooths the edges of lamps too",
+                &S::mean, {"radiance", "display"});
 }
 
 void add_indirect_target_row(std::vector<Setting>& table) {

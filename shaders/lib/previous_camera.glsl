@@ -16,15 +16,16 @@ vec3 previous_position(ivec2 pixel) {
 #endif
 }
 
-// Where in the picture the last frame's camera saw `position`, pixels: what pixel (0, 0) showed is at (0.5, 0.5). Far
-// outside where it did not.
-vec2 find_previous_place(vec3 position) {
+// Where in the picture `camera` sees `position`, pixels from its corner. Far outside where it does not.
+vec2 find_place(CameraRecord camera, vec3 position) {
     const vec2 NOWHERE = vec2(-1e6f);
-    CameraRecord camera = previous_camera();
     vec3 to_point = position - camera.position;
     float depth = camera.orthographic ? 1.0f : dot(to_point, camera.forward);
     if (!(depth > 0.0f)) return NOWHERE;
     float x = dot(to_point, camera.right) / (dot(camera.right, camera.right) * depth);
     float y = dot(to_point, camera.up) / (dot(camera.up, camera.up) * depth);
-    return vec2(0.5f + 0.5f * x, 0.5f - 0.5f * y) * vec2(frame_full.xy) - frame_jitter.zw;
+    return vec2(0.5f + 0.5f * x, 0.5f - 0.5f * y) * vec2(frame_full.xy);
 }
+
+// Where the last frame's camera saw `position`: what pixel (0, 0) showed is at (0.5, 0.5).
+vec2 find_previous_place(vec3 position) { return find_place(previous_camera(), position) - frame_jitter.zw; }

@@ -7,9 +7,9 @@
 //
 // Where things move, the past is read where the nearest surface around the pixel was (edges move with what is in front),
 // by a cubic over the 12 pixels without the corners, kept near the range of the four inner ones: sharp, and little
-// ringing. What the colours of this frame around the pixel do not explain is moved towards their mean until it lies
-// within CLIP deviations (Salvi 2016, in the compressed colours of Karis 2014). At rest nothing of the past is wrong:
-// it is taken as it is.
+// ringing. Where it may be wrong (lib/antialias/trust.glsl), what the colours of this frame around the pixel do not
+// explain is moved towards their mean until it lies within CLIP deviations (Salvi 2016, in the compressed colours of
+// Karis 2014). Elsewhere, and at rest, it is taken as it is: single frames miss what is smaller than a pixel.
 //
 // Where less is rendered than is shown, each pixel weighs the samples by their distance from its centre. What no frame
 // has shown before is interpolated.
@@ -25,6 +25,7 @@
 #include "lib/previous_camera.glsl"
 #include "shared/math/antialias.h"
 #include "shared/math/denoise.h"
+#include "lib/antialias/trust.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -35,12 +36,7 @@ layout(binding = UNIT_PASS_C) uniform usamplerBuffer exposure;
 #endif
 layout(binding = 0, rgba32f) writeonly uniform image2D out_picture;
 
-const int TAPS = 9;
 const int CENTRE = 4;
-
-ivec2 tap_offset(int tap) { return ivec2(tap % 3, tap / 3) - 1; }
-
-ivec2 clamp_to_frame(ivec2 pixel) { return clamp(pixel, ivec2(0), ivec2(frame_size.xy) - 1); }
 
 // Where in a pixel this frame's sample is, from its centre.
 vec2 sample_jitter() {
@@ -69,75 +65,70 @@ vec3 from_mean(vec3 mean) { return mean; }
 struct Past {
     vec3 radiance;
     float count;
+    bool trusted;  // it needs no clipping
 };
 
 // Pixels of the picture for a pixel of the frame.
 vec2 enlargement() { return vec2(imageSize(out_picture)) / vec2(frame_size.xy); }
 
-// How far the surface that `pixel` shows has come since the last frame, in pixels of the frame. That of the sky, by the
-// camera's turn.
-vec2 find_motion(ivec2 pixel, bool is_sky) {
-    vec3 direction = pixel_ray(pixel).direction;
-    vec3 before = previous_position(pixel);
-    CameraRecord camera = previous_camera();
-    if (is_sky) before = camera.position + (camera.orthographic ? camera.forward : direction);
-#ifdef TARN_PLANT_NO_UNJITTER
-    return vec2(pixel) + 0.5f - find_previous_place(before);
-#else
-    return vec2(pixel) + 0.5f + sample_jitter() - (find_previous_place(before) + frame_jitter.zw);
-#endif
-}
-
-// The motion of what is nearest among the pixels around; an orthographic sky stands still.
-vec2 find_nearest_motion(ivec2 pixel) {
-    const float SKY_DEPTH = 3e38f;
-    CameraRecord camera = frame_camera();
-    float nearest = SKY_DEPTH;
-    ivec2 found = pixel;
-    for (int tap = 0; tap < TAPS; ++tap) {
-        ivec2 around = clamp_to_frame(pixel + tap_offset(tap));
-        vec4 position = load_layer(around, LAYER_POSITION);
-        // Unlit surfaces have a place, the sky has none.
-        bool is_sky = position.w < 0.0f && position.xyz == vec3(0.0f);
-        float depth = is_sky ? SKY_DEPTH : dot(position.xyz - camera.position, camera.forward);
-        if (depth < nearest) {
-            nearest = depth;
-            found = around;
-        }
-    }
-    bool is_sky = nearest == SKY_DEPTH;
-    if (is_sky && camera.orthographic) return vec2(0.0f);
-    return find_motion(found, is_sky);
-}
-
 vec4 load_last(ivec2 pixel) {
     return texelFetch(last_picture, clamp(pixel, ivec2(0), textureSize(last_picture, 0) - 1), 0);
 }
 
-// The last picture at `place`, in pixels from its corner. The count is that of the pixel there.
+// The last picture at `place`, in pixels from its corner: by the cubic, or linearly where contrast is high, so that it
+// neither rings nor makes energy beside small lamps. The count is that of the pixel there.
 vec4 sample_last(vec2 place) {
-    const float RINGING = 1.3f;  // beyond the four pixels around: crests of waves, but no dark rims of lamps
+    const float MOST_CONTRAST = 5.0f;
     vec2 from_centre = place - 0.5f;
     ivec2 first = ivec2(floor(from_centre));
     vec2 share = from_centre - floor(from_centre);
     vec4 x = cubic_weights(share.x);
     vec4 y = cubic_weights(share.y);
-    vec4 a = load_last(first), b = load_last(first + ivec2(1, 0));
-    vec4 c = load_last(first + ivec2(0, 1)), d = load_last(first + ivec2(1, 1));
-    vec3 above = x.y * load_last(first + ivec2(0, -1)).xyz + x.z * load_last(first + ivec2(1, -1)).xyz;
-    vec3 below = x.y * load_last(first + ivec2(0, 2)).xyz + x.z * load_last(first + ivec2(1, 2)).xyz;
-    vec3 upper = x.x * load_last(first + ivec2(-1, 0)).xyz + x.y * a.xyz + x.z * b.xyz +
-                 x.w * load_last(first + ivec2(2, 0)).xyz;
-    vec3 lower = x.x * load_last(first + ivec2(-1, 1)).xyz + x.y * c.xyz + x.z * d.xyz +
-                 x.w * load_last(first + ivec2(2, 1)).xyz;
     // Without the corners the weights do not sum to 1.
-    float corners = (x.x + x.w) * (y.x + y.w);
-    vec3 sum = (y.x * above + y.y * upper + y.z * lower + y.w * below) / (1.0f - corners);
-    vec3 least = min(min(a.xyz, b.xyz), min(c.xyz, d.xyz));
-    vec3 greatest = max(max(a.xyz, b.xyz), max(c.xyz, d.xyz));
-    float count = share.y < 0.5f ? (share.x < 0.5f ? a.w : b.w) : (share.x < 0.5f ? c.w : d.w);
-    return vec4(clamp(sum, least / RINGING, greatest * RINGING), count);
+    float scale = 1.0f / (1.0f - (x.x + x.w) * (y.x + y.w));
+    vec4 inner[4];
+    vec3 cubic = vec3(0.0f);
+    float least = 3e38f, greatest = 0.0f;
+    for (int tap = 0; tap < 16; ++tap) {
+        ivec2 offset = ivec2(tap % 4, tap / 4);
+        bvec2 outer = bvec2(offset.x == 0 || offset.x == 3, offset.y == 0 || offset.y == 3);
+        if (all(outer)) continue;
+        vec4 texel = load_last(first + offset - 1);
+        float light = luminance(texel.xyz);
+        cubic += x[offset.x] * y[offset.y] * texel.xyz;
+        least = min(least, light);
+        greatest = max(greatest, light);
+        if (!any(outer)) inner[2 * (offset.y - 1) + offset.x - 1] = texel;
+    }
+    vec3 linear =
+        mix(mix(inner[0].xyz, inner[1].xyz, share.x), mix(inner[2].xyz, inner[3].xyz, share.x), share.y);
+    bool smooth_enough = greatest <= MOST_CONTRAST * least;
+    int nearest = (share.x < 0.5f ? 0 : 1) + (share.y < 0.5f ? 0 : 2);
+    return vec4(smooth_enough ? max(cubic * scale, vec3(0.0f)) : linear, inner[nearest].w);
 }
+
+#ifndef TARN_AT_REST
+// Whether the past may be wrong. Where something was laid bare or hidden it counts little, and is clipped; in a larger
+// picture until new samples outweigh it, since pixels there wait for theirs. `place`: where the past was, in pixels of the
+// last frame.
+Past judge(Past past, Nearest present, vec2 motion, vec2 place) {
+    const float DOUBTED_COUNT = 2.0f;  // samples of the frame
+    const float SETTLED_COUNT = 4.0f;  // of the picture
+#ifdef TARN_PLANT_NO_TRUST
+    return past;
+#endif
+    if (trusts_past == 0u) return past;
+    float scale = 1.0f / (enlargement().x * enlargement().y);
+    Nearest before = find_nearest_previous(ivec2(place));
+    bool along = has_come_along(motion, before, enlargement());
+    past.trusted = along && is_lit_as_before(present, before);
+#ifdef TARN_ENLARGE
+    past.trusted = past.trusted && past.count >= SETTLED_COUNT;
+#endif
+    past.count = along ? past.count : min(past.count, DOUBTED_COUNT * scale);
+    return past;
+}
+#endif
 
 // `nearest`: the frame's pixel whose sample is nearest to `pixel` of the picture.
 Past find_past(ivec2 pixel, ivec2 nearest) {
@@ -145,19 +136,20 @@ Past find_past(ivec2 pixel, ivec2 nearest) {
 #ifndef TARN_PLANT_FOREIGN_SIZE
     usable = usable && textureSize(last_picture, 0) == imageSize(out_picture);
 #endif
-    if (!usable) return Past(vec3(0.0f), 0.0f);
+    if (!usable) return Past(vec3(0.0f), 0.0f, true);
 #ifdef TARN_AT_REST
-    vec4 last = load_last(pixel);
+    return Past(load_last(pixel).xyz, load_last(pixel).w, true);
 #else
-    vec2 place = vec2(pixel) + 0.5f - find_nearest_motion(nearest) * enlargement();
+    Nearest present = find_nearest(nearest);
+    vec2 motion = find_motion(present);
+    vec2 place = vec2(pixel) + 0.5f - motion * enlargement();
     vec2 size = vec2(textureSize(last_picture, 0));
     // What lies far outside has no integer.
     if (!(place.x >= 0.0f && place.y >= 0.0f && place.x < size.x && place.y < size.y))
-        return Past(vec3(0.0f), 0.0f);
+        return Past(vec3(0.0f), 0.0f, true);
     vec4 last = sample_last(place);
-    last.w = min(last.w, steady_count);
+    return judge(Past(last.xyz, min(last.w, steady_count), false), present, motion, place / enlargement());
 #endif
-    return Past(last.xyz, last.w);
 }
 
 // ---- The present
@@ -284,7 +276,7 @@ void main() {
 #else
     Around around = load_around(nearest);
 #if !defined(TARN_AT_REST) && !defined(TARN_PLANT_NO_CLIP)
-    past.radiance = clip_past(past, around);
+    if (!past.trusted) past.radiance = clip_past(past, around);
 #endif
     Present present = weigh(around, vec2(nearest) + 0.5f - place, past.count);
 #endif

@@ -4,15 +4,12 @@
 
 #include <limits>
 
-#include "gpu/antialias_stage.h"
+#include "gpu/antialias_sights.h"
 
 namespace tarn {
 namespace {
 
 using namespace test;
-
-constexpr glm::ivec2 OUTPUT_PX(62, 43);  // no multiple of a group
-constexpr double SCALES[] = {1.0, 0.75, 0.5, 0.33};
 
 // ---- Places in a pixel
 
@@ -33,37 +30,6 @@ TEST(AntialiasJitter, TheMeanIsTheCentreAndThePlacesAreEven) {
         }
     }
     EXPECT_EQ(find_jitter(7, 1), glm::vec2(0.0f));
-}
-
-// ---- What each ray meets
-
-glm::vec3 meet_plane(const glm::vec3& origin, const glm::vec3& direction, float z) {
-    return origin + direction * ((z - origin.z) / direction.z);
-}
-
-// A wall at 5 m with a slanted edge: 1 on one side, 0.1 on the other.
-Sight see_edge(const glm::vec3& origin, const glm::vec3& direction) {
-    Sight sight;
-    sight.position = sight.previous = meet_plane(origin, direction, -5.0f);
-    sight.radiance = glm::vec3(sight.position.x + 0.37f * sight.position.y > 0.2f ? 1.0f : 0.1f);
-    return sight;
-}
-
-// The same wall in waves of some pixels.
-Sight see_waves(const glm::vec3& origin, const glm::vec3& direction) {
-    Sight sight = see_edge(origin, direction);
-    sight.radiance = glm::vec3(0.5f) + 0.4f * glm::vec3(std::sin(11.0f * sight.position.x),
-                                                        std::sin(9.0f * sight.position.y), 0.0f);
-    return sight;
-}
-
-SightOf see_even(const glm::vec3& radiance) {
-    return [radiance](const glm::vec3& origin, const glm::vec3& direction) {
-        Sight sight = see_edge(origin, direction);
-        sight.is_sky = sight.position.y > 0.5f;
-        sight.radiance = radiance;
-        return sight;
-    };
 }
 
 TEST(AntialiasPass, EvenLightStaysWhatItIsAtRestAndInMotion) {
@@ -135,98 +101,6 @@ TEST(AntialiasPass, NoEnergyIsLostAtEdgesOfLamps) {
         for (const glm::vec3& value : stage.integrate(see_lamp, 16)) expected += value.x;
         EXPECT_NEAR(sum / expected, 1.0, 2e-3) << scale;
     }
-}
-
-// ---- In motion
-
-struct WaveErrors {
-    double found = 0.0;
-    double enlarged = 0.0;  // of one frame, enlarged bilinearly
-};
-
-// Of waves while the camera walks, or stands in a scene where something else moves; over that of an even
-// grey.
-WaveErrors find_wave_errors(double scale, const glm::vec3& step, const Defines& planted = {}) {
-    AntialiasStage stage(OUTPUT_PX, scale);
-    stage.plant(planted);
-    stage.has_moved = true;
-    Pixels found;
-    for (int frame = 0; frame < 24; ++frame) {
-        stage.move_camera(step);
-        found = stage.render(see_waves);
-    }
-    const Pixels truth = stage.integrate(see_waves, 8);
-    const double contrast = rms_error(truth, Pixels(truth.size(), glm::vec3(0.5f)));
-    WaveErrors errors{rms_error(found, truth) / contrast, 0.0};
-    if (scale < 1.0) errors.enlarged = rms_error(stage.enlarged(), truth) / contrast;
-    fmt::print("scale {}, step {}: {:.3f} of the contrast, enlarged {:.3f}\n", scale, step.x, errors.found,
-               errors.enlarged);
-    return errors;
-}
-
-constexpr glm::vec3 WALK(0.031f, 0.017f, 0.0f);  // parts of a pixel, which is 0.12 m wide
-
-// Waves of five pixels, which each frame reads anew from the last.
-TEST(AntialiasPass, FineTextureStaysSharpInMotion) {
-    EXPECT_LT(find_wave_errors(1.0, glm::vec3(0.0f)).found, 0.1);
-    EXPECT_LT(find_wave_errors(1.0, WALK).found, 0.25);
-    for (const glm::vec3& step : {glm::vec3(0.0f), WALK}) {
-        const WaveErrors errors = find_wave_errors(0.5, step);
-        EXPECT_LT(errors.found, 0.75 * errors.enlarged);
-    }
-}
-
-TEST(AntialiasPass, APastThatIsReadWithTheJitterIsFound) {
-    EXPECT_GT(find_wave_errors(1.0, glm::vec3(0.0f), {"TARN_PLANT_NO_UNJITTER"}).found, 0.25);
-}
-
-// A board of 1 before a wall of 0.1 runs through the picture, 3 pixels a frame.
-SightOf see_board(int frame) {
-    return [frame](const glm::vec3& origin, const glm::vec3& direction) {
-        const float step = 0.15f;
-        const float middle = -1.0f + step * float(frame);
-        Sight sight;
-        sight.position = meet_plane(origin, direction, -2.0f);
-        sight.radiance = glm::vec3(1.0f);
-        sight.previous = sight.position - glm::vec3(step, 0.0f, 0.0f);
-        if (std::abs(sight.position.x - middle) < 0.25f && std::abs(sight.position.y) < 0.5f) return sight;
-        sight.position = sight.previous = meet_plane(origin, direction, -5.0f);
-        sight.radiance = glm::vec3(0.1f);
-        return sight;
-    };
-}
-
-// How far the wall is from its radiance where the board was two frames ago and longer, and not since.
-double ghost(double scale, const Defines& planted = {}) {
-    constexpr int FRAMES = 12, AFTER = 2;
-    AntialiasStage stage(OUTPUT_PX, scale);
-    stage.plant(planted);
-    stage.has_moved = true;
-    std::vector<Pixels> shown;
-    Pixels found;
-    for (int frame = 0; frame < FRAMES; ++frame) {
-        found = stage.render(see_board(frame));
-        shown.push_back(stage.integrate(see_board(frame), 4));
-    }
-    double greatest = 0.0;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        bool is_free = true, was_hidden = false;
-        for (int frame = 0; frame < FRAMES; ++frame) {
-            const bool hidden = shown[std::size_t(frame)][i].x > 0.1001f;
-            was_hidden = was_hidden || hidden;
-            if (frame >= FRAMES - AFTER) is_free = is_free && !hidden;
-        }
-        if (is_free && was_hidden) greatest = std::max(greatest, std::abs(double(found[i].x) - 0.1));
-    }
-    return greatest;
-}
-
-TEST(AntialiasPass, AMovingEdgeLeavesNoGhostAfterTwoFrames) {
-    for (const double scale : SCALES) EXPECT_LT(ghost(scale), 0.01) << scale;
-}
-
-TEST(AntialiasPass, APastThatIsNotClippedIsFound) {
-    EXPECT_GT(ghost(1.0, {"TARN_PLANT_NO_CLIP"}), 0.1);
 }
 
 // ---- What must not come in
@@ -328,56 +202,6 @@ TEST(AntialiasPass, TheMeanOfTheDisplaySmoothsTheEdgesOfLamps) {
     const double stairs = lamp_error(AntialiasMean::RADIANCE), smooth = lamp_error(AntialiasMean::DISPLAY);
     fmt::print("error of what is shown: {:.4f} of radiance, {:.4f} of the display\n", stairs, smooth);
     EXPECT_LT(smooth, 0.5 * stairs);
-}
-
-// ---- Crawling
-
-// Stripes of less than two pixels.
-Sight see_stripes(const glm::vec3& origin, const glm::vec3& direction) {
-    Sight sight = see_edge(origin, direction);
-    const float across = sight.position.x + 0.2f * sight.position.y;
-    sight.radiance = glm::vec3(std::sin(30.0f * across) > 0.0f ? 1.0f : 0.1f);
-    return sight;
-}
-
-// Mean of |a - 2 b + c| of three pictures in a row, as the display shows them.
-double second_difference(const std::vector<Pixels>& pictures) {
-    const auto shown = [](double value) { return std::pow(std::clamp(value, 0.0, 1.0), 1.0 / 2.2); };
-    double sum = 0.0;
-    for (std::size_t f = 2; f < pictures.size(); ++f) {
-        for (std::size_t i = 0; i < pictures[f].size(); ++i) {
-            sum += std::abs(shown(pictures[f - 2][i].x) - 2.0 * shown(pictures[f - 1][i].x) +
-                            shown(pictures[f][i].x));
-        }
-    }
-    return sum / double((pictures.size() - 2) * pictures[0].size());
-}
-
-// What a camera that walks a ninth of a pixel a frame sees crawl beyond what the integral over each pixel
-// does: with antialiasing, over that of single samples.
-double find_crawling(const SightOf& sight) {
-    AntialiasStage stage(OUTPUT_PX, 1.0);
-    stage.plant({});
-    stage.has_moved = true;
-    std::vector<Pixels> single, smooth, truth;
-    for (int frame = 0; frame < 24; ++frame) {
-        stage.move_camera({0.013f, 0.0f, 0.0f});
-        const Pixels found = stage.render(sight);
-        if (frame < 12) continue;
-        smooth.push_back(found);
-        single.push_back(stage.integrate(sight, 1));
-        truth.push_back(stage.integrate(sight, 8));
-    }
-    const double before = second_difference(single), after = second_difference(smooth);
-    const double least = second_difference(truth);
-    fmt::print("second difference: single samples {:.4f}, antialiased {:.4f}, integral {:.4f}\n", before,
-               after, least);
-    return (after - least) / (before - least);
-}
-
-TEST(AntialiasPass, EdgesAndFineTextureCrawlLess) {
-    EXPECT_LT(find_crawling(see_edge), 1.0 / 3.0);
-    EXPECT_LT(find_crawling(see_stripes), 0.25);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "passes/antialias/antialias.h"
 #include "passes/antialias/jitter.h"
 #include "passes/enlarge.h"
+#include "shared/interface/constants/light_changes_cell.h"
 #include "shared/math/display.h"
 
 namespace tarn::test {
@@ -17,6 +18,7 @@ struct Sight {
     glm::vec3 previous{0.0f};  // where that place was in the last frame
     glm::vec3 radiance{0.0f};
     glm::vec3 emission{0.0f};
+    float alpha = 1.0f;  // GGX
     bool is_sky = false;
 };
 
@@ -37,7 +39,9 @@ class AntialiasStage {
     }
 
     RenderSettings settings;
-    bool has_moved = false;                                       // since the last frame, whatever has
+    bool has_moved = false;       // since the last frame, whatever has
+    bool scene_changed = false;   // the same without the camera
+    std::optional<float> change;  // what find_light_changes finds, everywhere; none: it has not run
     std::function<void(std::vector<glm::vec4>& radiance)> spoil;  // of the next frames
 
     void plant(Defines defines) {
@@ -66,14 +70,22 @@ class AntialiasStage {
         FrameContext frame{base.recorder, base.programs, base.tracer,        base.counters, base.rays,
                            plan_,         settings,      base.scene_defines, size_px(),     output_px_};
         frame.has_moved = has_moved;
-        const KeptPicture kept{antialias(frame, gbuffer, small, history_.of_frame(frame_ - 1)), settings};
-        history_.keep(frame_, kept);
+        frame.scene_changed = scene_changed;
+        Picture changes;
+        if (change) {
+            const glm::ivec2 cells = (size_px() + CHANGE_CELL - 1) / CHANGE_CELL;
+            const std::vector<float> values(std::size_t(cells.x) * std::size_t(cells.y), *change);
+            changes = context_.write_picture("test/changes", cells, GL_R32F, values);
+        }
+        const Picture picture = antialias(frame, gbuffer, {small, changes}, history_.of_frame(frame_ - 1));
+        history_.keep(frame_, {picture, settings, true});
+        surfaces_.keep(frame_, gbuffer.surfaces);
         enlarged_ = settings.antialias.scale < 1.0 ? to_pixels(*enlarge(frame, small)) : Pixels();
         context_.recorder().end();
         previous_camera_ = camera_;
         previous_jitter_px_ = jitter_px_;
         ++frame_;
-        return to_pixels(*kept.picture);
+        return to_pixels(*picture);
     }
 
     // The same frame without the past, enlarged bilinearly; where the scale is less than 1.
@@ -113,13 +125,14 @@ class AntialiasStage {
     }
 
     GBuffer write_surfaces(const SightOf& sight, std::vector<glm::vec4>& radiance) {
-        std::vector<glm::vec4> position, emission, motion;
+        std::vector<glm::vec4> position, diffuse, emission, motion;
         for (int y = 0; y < size_px().y; ++y) {
             for (int x = 0; x < size_px().x; ++x) {
                 const glm::vec2 place = glm::vec2(float(x), float(y)) + 0.5f + jitter_px_;
                 const Sight s = sight(camera_.position, direction(place, size_px()));
                 position.push_back(s.is_sky ? glm::vec4(0.0f, 0.0f, 0.0f, -1.0f)
                                             : glm::vec4(s.position, 1e-6f));
+                diffuse.emplace_back(0.5f, 0.5f, 0.5f, s.alpha);
                 motion.emplace_back(s.previous, 0.0f);
                 emission.emplace_back(s.emission, 0.0f);
                 radiance.emplace_back(s.radiance, 1.0f);
@@ -127,10 +140,15 @@ class AntialiasStage {
         }
         const Surfaces surfaces = std::make_shared<SurfaceImages>(size_px());
         surfaces->layers[LAYER_POSITION].upload(position);
+        surfaces->layers[LAYER_DIFFUSE].upload(diffuse);
         surfaces->layers[LAYER_EMISSION].upload(emission);
         surfaces->layers[LAYER_MOTION].upload(motion);
         context_.recorder().pass("test/write").write(surfaces->stack);
-        return {nullptr, surfaces, std::nullopt};
+        std::optional<Previous<Surfaces>> previous = surfaces_.of_frame(frame_ - 1);
+        if (previous && glm::ivec2(previous->value()->stack.width_px(),
+                                   previous->value()->stack.height_px()) != size_px())
+            previous.reset();
+        return {nullptr, surfaces, previous};
     }
 
     void bind_block() {
@@ -150,6 +168,7 @@ class AntialiasStage {
     glm::vec2 previous_jitter_px_{0.0f};
     FramePlan plan_;
     History<KeptPicture> history_;
+    History<Surfaces> surfaces_;
     Pixels enlarged_;
     std::uint32_t frame_ = 64;  // a multiple of the places in a pixel
     Buffer block_{"test/block", sizeof(FrameBlock), BufferUse::DYNAMIC};

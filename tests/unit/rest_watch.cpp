@@ -53,9 +53,12 @@ TEST(FreshSettings, keepNothingFromFrameToFrame) {
         EXPECT_NE(fresh.get("direct"), "restir") << preset.name;
         EXPECT_NE(fresh.get("indirect"), "restir") << preset.name;
         EXPECT_EQ(fresh.get("denoise"), "off") << preset.name;
+        EXPECT_NE(fresh.get("antialias"), "taa") << preset.name;
         EXPECT_EQ(fresh.get("indirect-cache"), "off") << preset.name;
     }
     EXPECT_EQ(Settings::preset("clean").fresh().get("indirect"), "path");
+    EXPECT_EQ(Settings::preset("clean").fresh().get("antialias"), "jitter");
+    EXPECT_EQ(Settings::preset("fast").fresh().get("antialias"), "off");
     EXPECT_EQ(Settings::preset("fast").fresh().get("indirect"), "off") << "light that was off stays off";
 }
 

@@ -105,7 +105,7 @@ int count_bounces(const std::vector<Method>& methods) {
 
 bool any_antialiases(const std::vector<Method>& methods) {
     return std::any_of(methods.begin(), methods.end(),
-                       [](const Method& method) { return method.settings.antialias.runs(); });
+                       [](const Method& method) { return method.settings.antialias.moves_samples(); });
 }
 
 Method parse_method(const std::string& text) {

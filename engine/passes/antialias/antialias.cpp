@@ -18,13 +18,17 @@ constexpr float GREATEST_COUNT = 64.0f;
 
 }  // namespace
 
-Picture antialias(const FrameContext& frame, const GBuffer& gbuffer, const Picture& radiance,
+Picture antialias(const FrameContext& frame, const GBuffer& gbuffer, const AntialiasInput& input,
                   const std::optional<Previous<KeptPicture>>& previous) {
+    const Picture& radiance = input.radiance;
     const double scale = frame.settings.antialias.scale;
     AntialiasConstants constants{};
     constants.steady_count = float(std::max(LEAST_STEADY_COUNT, STEADY_COUNT * scale * scale));
     constants.greatest_count = GREATEST_COUNT;
     constants.has_previous = previous ? 1u : 0u;
+    constants.trusts_past = gbuffer.previous && (!frame.scene_changed || input.changes) ? 1u : 0u;
+    constants.has_changes = input.changes ? 1u : 0u;
+    constants.has_previous_motion = previous && previous->value().knows_motion ? 1u : 0u;
     const AntialiasMean mean = frame.settings.antialias.mean;
     Exposure exposure;
     if (mean == AntialiasMean::DISPLAY) exposure = find_exposure(frame, radiance, {}, std::nullopt);
@@ -37,6 +41,10 @@ Picture antialias(const FrameContext& frame, const GBuffer& gbuffer, const Pictu
         .count(BLOCK_COUNTERS, frame.counters);
     if (previous) pass.read(UNIT_PASS_B, *previous, previous->value().picture);
     if (exposure) pass.read(UNIT_PASS_C, exposure);
+    if (input.changes) pass.read(UNIT_PASS_D, input.changes);
+    if (gbuffer.previous) {
+        pass.read(UNIT_PREVIOUS_SURFACE, *gbuffer.previous, gbuffer.previous->value()->stack);
+    }
     const AntialiasVariant variant{!frame.has_moved, frame.output_px != frame.size_px, mean};
     pass.dispatch(frame.compute(variant), frame.output_px);
     return picture;
