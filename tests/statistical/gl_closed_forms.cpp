@@ -185,7 +185,7 @@ TEST_F(GlClosedForms, PlantedBugsShowInALambertFurnace) {
 // which the highlight varies little. Bilinear lookup keeps the sum at exactly 1.
 constexpr int SKY_ROWS = 4096;  // a row is 0.77e-3 rad high; the narrowest highlight is 2e-3 rad wide
 constexpr int FIRST_BAND_ROWS = 4;
-constexpr int PILOT_FRAMES = 5;
+constexpr int PILOT_FRAMES = 3;
 constexpr int MORE_FRAMES = 4;
 
 WorldOptions make_sky_band(int first_row, int end_row) {

@@ -8,6 +8,7 @@
 // in any of the pictures, are left out of all, and more light candidates than the presets have lower the
 // noise. Neither touches what presets differ in.
 #include <cmath>
+#include <map>
 
 #include "core/statistics.h"
 #include "metrics/frame_mean.h"
@@ -88,11 +89,18 @@ class IndirectPresets : public OnContext<testing::TestWithParam<const char*>> {
         IndirectPart part;
         for (std::uint32_t seed = first_seed; seed < first_seed + SEEDS; ++seed) {
             Picture with = render_mean(settings_of(indirect), seed);
-            const Picture without = render_mean(settings_of({}), seed);
+            const Picture& without = find_direct(seed);
             for (std::size_t i = 0; i < with.size(); ++i) with[i] -= without[i];
             part.seeds.push_back(std::move(with));
         }
         return part;
+    }
+
+    // The same for all parts.
+    const Picture& find_direct(std::uint32_t seed) {
+        const auto found = direct_.find(seed);
+        if (found != direct_.end()) return found->second;
+        return direct_[seed] = render_mean(settings_of({}), seed);
     }
 
     static IndirectSettings truth_settings() {
@@ -103,6 +111,7 @@ class IndirectPresets : public OnContext<testing::TestWithParam<const char*>> {
     }
 
     std::unique_ptr<TestScene> scene_ = load_test_scene(content_file(GetParam()));
+    std::map<std::uint32_t, Picture> direct_;  // by seed
 };
 
 // Blackens pixels far above the mean in any of the pictures, in all of them.
