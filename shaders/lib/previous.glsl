@@ -27,20 +27,28 @@ PixelRay previous_pixel_ray(ivec2 pixel) {
     return camera_ray(previous_camera(), vec2(full) + 0.5f + frame_jitter.zw, vec2(frame_full.xy));
 }
 
-// The receiver that `pixel` was in the last frame; false where nothing was lit.
-bool load_previous_receiver(ivec2 pixel, out Receiver r) {
-    ShadingPoint point = unpack_shading_point(texelFetch(previous_layers, ivec3(pixel, LAYER_POSITION), 0),
-                                              texelFetch(previous_layers, ivec3(pixel, LAYER_NORMALS), 0),
-                                              texelFetch(previous_layers, ivec3(pixel, LAYER_DIFFUSE), 0),
-                                              texelFetch(previous_layers, ivec3(pixel, LAYER_SPECULAR), 0));
-    r = make_receiver(point, -previous_pixel_ray(pixel).direction);
-    return point.position_error >= 0.0f;
+vec4 load_previous_layer(ivec2 pixel, int layer) {
+    return texelFetch(previous_layers, ivec3(pixel, layer), 0);
 }
 
-// What lib/neighbour_test.glsl looks at; false where nothing was lit.
-bool load_previous_look(ivec2 pixel, out Look look) {
-    vec4 position = texelFetch(previous_layers, ivec3(pixel, LAYER_POSITION), 0);
-    look = look_of_layers(position, texelFetch(previous_layers, ivec3(pixel, LAYER_NORMALS), 0),
-                          texelFetch(previous_layers, ivec3(pixel, LAYER_DIFFUSE), 0));
-    return position.w >= 0.0f;
+// What lib/neighbour_test.glsl looks at, as the G-buffer has it.
+struct PreviousLayers {
+    vec4 position;
+    vec4 normals;
+    vec4 diffuse;
+};
+
+PreviousLayers load_previous_layers(ivec2 pixel) {
+    return PreviousLayers(load_previous_layer(pixel, LAYER_POSITION),
+                          load_previous_layer(pixel, LAYER_NORMALS),
+                          load_previous_layer(pixel, LAYER_DIFFUSE));
+}
+
+bool was_lit(PreviousLayers layers) { return layers.position.w >= 0.0f; }
+
+// The receiver that `pixel` was in the last frame, of which `layers` were loaded; it means nothing where nothing was lit.
+Receiver load_previous_receiver(ivec2 pixel, PreviousLayers layers) {
+    ShadingPoint point = unpack_shading_point(layers.position, layers.normals, layers.diffuse,
+                                              load_previous_layer(pixel, LAYER_SPECULAR));
+    return make_receiver(point, -previous_pixel_ray(pixel).direction);
 }

@@ -65,8 +65,9 @@ vec3 find_light_in_view(HitRecord hit, Receiver r) {
     ivec2 pixel = project_to_previous(position);
     bool is_in_view = pixel.x >= 0;
     pixel = max(pixel, ivec2(0));
-    Receiver found;
-    bool lit = load_previous_receiver(pixel, found);
+    PreviousLayers layers = load_previous_layers(pixel);
+    Receiver found = load_previous_receiver(pixel, layers);
+    bool lit = was_lit(layers);
     if (!is_in_view || !lit || !is_same_surface(position, normal, found.point)) return vec3(0.0f);
     return texelFetch(kept_light, pixel, 0).xyz / max(base_to_viewer(found), vec3(LEAST_BASE));
 }

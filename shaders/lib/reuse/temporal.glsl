@@ -55,11 +55,11 @@ bool is_inside(ivec2 pixel) {
     return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, ivec2(frame_size.xy)));
 }
 
-// How well the last frame's surface at `pixel` stands for `expected`: the cosine between their normals; below 0 where it
-// does not at all.
-float previous_likeness(Look expected, ivec2 pixel) {
-    Look found;
-    bool lit = load_previous_look(pixel, found);
+// How well a surface of the last frame stands for `expected`: the cosine between their normals; below 0 where it does not
+// at all.
+float previous_likeness(Look expected, PreviousLayers layers) {
+    Look found = look_of_layers(layers.position, layers.normals, layers.diffuse);
+    bool lit = was_lit(layers);
     float depth = view_depth(previous_camera(), expected.position);
     if (!lit || !is_similar(expected, found, depth) || !can_share(expected.alpha, found.alpha)) return -1.0f;
     return dot(expected.shading_normal, found.shading_normal);
@@ -69,7 +69,7 @@ float previous_likeness(Look expected, ivec2 pixel) {
 // one's. A surface never falls on the same pixel centres twice, and where a normal map is finer than pixels the nearest
 // one may look another way: its history would estimate another integral, and 20 frames of that add up. Surfaces alone
 // decide, so this adds no bias; but neighbours may find the same pixel and share its sample.
-bool find_previous_pixel(ivec2 pixel, Receiver here, out ivec2 found) {
+bool find_previous_pixel(ivec2 pixel, Receiver here, out ivec2 found, out PreviousLayers layers) {
     Look expected = look_of(here.point);
     expected.position = previous_position(pixel);
     found = project_to_previous(expected.position);
@@ -79,19 +79,23 @@ bool find_previous_pixel(ivec2 pixel, Receiver here, out ivec2 found) {
         found = is_inside(moved) ? moved : found;
     }
     const float GOOD_ENOUGH = 0.9999f;
-    float best = previous_likeness(expected, found);
+    layers = load_previous_layers(found);
+    float best = previous_likeness(expected, layers);
     ivec2 centre = found;
 #ifdef TARN_PLANT_PREVIOUS_NORMAL
     if (best >= 0.0f)
         return true;  // the search would hide the bug: normals that are alike are hard to mistake
 #endif
-    for (int i = 0; i < 9 && best < GOOD_ENOUGH; ++i) {
-        ivec2 candidate = centre + ivec2(i % 3, i / 3) - 1;
+    for (int i = 0; i < 8 && best < GOOD_ENOUGH; ++i) {
+        int place = i < 4 ? i : i + 1;  // the centre was asked
+        ivec2 candidate = centre + ivec2(place % 3, place / 3) - 1;
         if (!is_inside(candidate)) continue;
-        float likeness = previous_likeness(expected, candidate);
+        PreviousLayers theirs = load_previous_layers(candidate);
+        float likeness = previous_likeness(expected, theirs);
         if (likeness > best) {
             best = likeness;
             found = candidate;
+            layers = theirs;
         }
     }
     return best >= 0.0f;
@@ -118,12 +122,12 @@ SampleReservoir load_previous_reservoir(ivec2 pixel, float fresh_confidence) {
     return previous;
 }
 
-Pair make_pair(Receiver here, SampleReservoir fresh, ivec2 previous_pixel) {
+Pair make_pair(Receiver here, SampleReservoir fresh, ivec2 previous_pixel, PreviousLayers layers) {
     Pair p;
     p.here = here;
     p.fresh = fresh;
     p.previous_pixel = previous_pixel;
-    load_previous_receiver(previous_pixel, p.previous_receiver);
+    p.previous_receiver = load_previous_receiver(previous_pixel, layers);
     p.previous = load_previous_reservoir(previous_pixel, fresh.state.confidence);
     SAMPLE in_previous = p.previous.chosen;
     p.previous.chosen = move_to_present(in_previous);
@@ -307,16 +311,17 @@ void main() {
     bool lit = load_receiver(pixel, here);
     SampleReservoir fresh = load_reservoir(in_reservoirs, pixel);
     ivec2 previous_pixel = ivec2(-1);
-    bool has_pair = lit && find_previous_pixel(pixel, here, previous_pixel);
+    PreviousLayers layers;
+    bool has_pair = lit && find_previous_pixel(pixel, here, previous_pixel, layers);
 #ifdef TARN_WRITE_RAYS
     if (has_pair) {
-        write_rays(make_pair(here, fresh, previous_pixel), pixel);
+        write_rays(make_pair(here, fresh, previous_pixel, layers), pixel);
     } else {
         store_no_rays(pixel);
     }
 #else
     SampleReservoir result = fresh;
-    if (has_pair) result = merge(make_pair(here, fresh, previous_pixel), pixel);
+    if (has_pair) result = merge(make_pair(here, fresh, previous_pixel, layers), pixel);
 #ifdef TARN_PLANT_COUNT_DEAD
     if (!has_pair) result.state.confidence += confidence_cap * fresh.state.confidence;
     if (!has_pair) result.state.contribution_weight /= 1.0f + confidence_cap;
