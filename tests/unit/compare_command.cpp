@@ -66,6 +66,12 @@ class CompareCommand : public testing::Test {
         return nlohmann::json::parse(std::ifstream(path("out.json")));
     }
 
+    ProcessResult judge(const std::string& limits, const char* kind = "exr") const {
+        const std::string extension = std::string(".") + kind;
+        return run_tarn("compare " + path(("reference" + extension).c_str()) + " " +
+                        path(("image" + extension).c_str()) + " " + limits + " --json " + path("out.json"));
+    }
+
     fs::path folder_;
 };
 
@@ -132,6 +138,35 @@ TEST_F(CompareCommand, ends_with_one_line_where_pictures_do_not_compare) {
 TEST_F(CompareCommand, ends_with_status_2_for_wrong_usage) {
     EXPECT_EQ(run_tarn("compare").status, 2);
     EXPECT_EQ(run_tarn("compare a.exr b.exr --exposure bright").status, 2);
+}
+
+// The pictures differ by 0.25: mse 0.0625, mean ratio 1.5.
+TEST_F(CompareCommand, limits_decide_the_exit_status) {
+    EXPECT_EQ(judge("--max mse=0.07 --max mean_ratio=1.51 --min mean_ratio=1.49").status, 0);
+    const ProcessResult above = judge("--max mse=0.06 --min mean_ratio=1.49");
+    EXPECT_EQ(above.status, 3);
+    EXPECT_NE(above.output.find("tarn: mse is 0.0625, at most 0.06 is allowed\n"), std::string::npos)
+        << above.output;
+    EXPECT_NE(above.output.find("rel_mse "), std::string::npos) << "the table comes all the same";
+    EXPECT_TRUE(fs::exists(path("out.json")));
+    const ProcessResult two = judge("--max mse=0.06 --min mean_ratio=1.6");
+    EXPECT_EQ(two.status, 3);
+    EXPECT_NE(two.output.find("tarn: mean_ratio is 1.5, at least 1.6 is allowed\n"), std::string::npos)
+        << two.output;
+}
+
+TEST_F(CompareCommand, pixels_that_are_not_finite_may_have_a_limit) {
+    const std::string pictures = "compare " + path("reference.exr") + " " + path("nan.exr");
+    EXPECT_EQ(run_tarn(pictures + " --max non_finite=1").status, 0);
+    EXPECT_EQ(run_tarn(pictures + " --max non_finite=0").status, 3);
+}
+
+TEST_F(CompareCommand, limits_that_mean_nothing_are_refused) {
+    for (const char* limit : {"--max beauty=1", "--max mse", "--max mse=", "--max mse=1x", "--max mse=nan"})
+        EXPECT_EQ(judge(limit).status, 2) << limit;
+    const ProcessResult unmeasured = judge("--max flip_hdr=0.1", "png");
+    EXPECT_EQ(unmeasured.status, 1);
+    EXPECT_NE(unmeasured.output.find("flip_hdr is not measured"), std::string::npos) << unmeasured.output;
 }
 
 }  // namespace

@@ -8,12 +8,14 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "commands.h"
 #include "core/display.h"
 #include "core/error.h"
 #include "core/image.h"
 #include "image_io/image_io.h"
+#include "limits.h"
 #include "metrics/flip.h"
 #include "metrics/heat_map.h"
 #include "metrics/image_error.h"
@@ -30,7 +32,13 @@ struct CompareOptions {
     std::filesystem::path json;
     std::filesystem::path difference;
     std::optional<float> exposure_ev;
+    std::vector<Limit> limits;
 };
+
+// What may have a limit, as JSON names it.
+const std::vector<std::string> KEYS = {"mse",      "rmse", "rel_mse",    "rel_mse_trimmed",
+                                       "rmspe",    "mape", "mean_ratio", "flip_ldr",
+                                       "flip_hdr", "ssim", "non_finite"};
 
 // A pair of pictures: linear for the sums, display-encoded for the eye.
 struct Pair {
@@ -183,9 +191,11 @@ void run_compare(const CompareOptions& options) {
     check_output_folder(options.difference);
     Pair pair = load_pair(options);
     const Comparison comparison = compare(pair);
-    if (!options.json.empty()) write_json(options.json, make_json(pair, comparison));
+    const nlohmann::ordered_json json = make_json(pair, comparison);
+    if (!options.json.empty()) write_json(options.json, json);
     if (!options.difference.empty()) write_png(options.difference, heat_map(comparison.flip_map));
     print_table(pair, comparison);
+    check_limits(json, options.limits);
 }
 
 }  // namespace
@@ -205,6 +215,7 @@ void add_compare_command(CLI::App& app) {
             "display metrics an exposure found from the reference")
         ->check(make_finite_range(MIN_EXPOSURE_EV, MAX_EXPOSURE_EV))
         ->type_name("EV");
+    add_limit_options(*command, KEYS, options->limits);
     command->callback([options] { run_compare(*options); });
 }
 

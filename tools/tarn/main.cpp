@@ -1,5 +1,6 @@
 // tarn: renders, measures and shows scenes. Exit status: 0; 1 with one line on stderr where a file,
-// a driver or a disk fails; 2 for wrong usage; 130 after Ctrl-C, whatever was kept.
+// a driver or a disk fails; 2 for wrong usage; 3 where a value is beyond the user's limit; 130 after Ctrl-C,
+// whatever was kept.
 #include <cstdio>
 #include <exception>
 
@@ -8,11 +9,13 @@
 #include "core/version.h"
 #include "game/window.h"
 #include "interrupt.h"
+#include "limits.h"
 #include "rays/ray_tracer.h"
 
 namespace tarn {
 namespace {
 
+constexpr int LIMIT_PASSED = 3;
 constexpr int INTERRUPTED = 130;  // 128 + SIGINT, as shells have it
 
 int run(int argc, char** argv) {
@@ -48,6 +51,9 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
     try {
         return tarn::run(argc, argv);
+    } catch (const tarn::LimitPassed& verdict) {
+        std::fprintf(stderr, "tarn: %s\n", verdict.what());
+        return tarn::LIMIT_PASSED;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "tarn: %s\n", error.what());
         return tarn::interrupt_flag() ? tarn::INTERRUPTED : 1;
