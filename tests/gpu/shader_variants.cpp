@@ -1,5 +1,5 @@
-// Every shader under shaders/passes compiles in every variant that a plan can ask for, and each of its choices
-// links once where the scene has most to bind, without a complaint of the driver.
+// Every shader under shaders/passes compiles in every variant that a plan can ask for, and each of its
+// choices links once where the scene has most to bind, without a complaint of the driver.
 //
 // Linking takes six times as long as compiling, and of a compute shader, whose functions all have bodies, it
 // can but find that it asks for more than there is.
