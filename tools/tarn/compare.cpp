@@ -15,13 +15,13 @@
 #include "core/error.h"
 #include "core/image.h"
 #include "image_io/image_io.h"
-#include "limits.h"
 #include "metrics/flip.h"
 #include "metrics/heat_map.h"
 #include "metrics/image_error.h"
 #include "metrics/ssim.h"
 #include "output/output_files.h"
 #include "scene_options.h"
+#include "verdict.h"
 
 namespace tarn {
 namespace {

@@ -9,8 +9,8 @@
 #include "core/version.h"
 #include "game/window.h"
 #include "interrupt.h"
-#include "limits.h"
 #include "rays/ray_tracer.h"
+#include "verdict.h"
 
 namespace tarn {
 namespace {

@@ -1,4 +1,4 @@
-#include "limits.h"
+#include "verdict.h"
 
 #include <fmt/format.h>
 
