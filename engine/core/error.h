@@ -19,6 +19,12 @@ class Error : public std::runtime_error {
         : std::runtime_error(fmt::format(format, std::forward<Args>(args)...)) {}
 };
 
+// The user asked for what does not exist or make sense: exit status 2 instead of 1.
+class UsageError : public Error {
+  public:
+    using Error::Error;
+};
+
 [[noreturn]] void fail_assertion(const char* condition, const char* file, int line,
                                  const std::string& message);
 

@@ -1,8 +1,12 @@
 // The sequence of a glTF import: take the file apart, then fill one table after the other.
 #include "scene/gltf_import.h"
 
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <exception>
 #include <string>
+#include <string_view>
 
 #include "core/error.h"
 #include "core/log.h"
@@ -41,10 +45,21 @@ Scene build_scene(GltfDocument& document, const GltfOptions& options) {
     return scene;
 }
 
+// Scenes of formats that people have at hand, by their name.
+void refuse_other_formats(const std::filesystem::path& path) {
+    constexpr std::array<std::string_view, 11> OTHERS = {".obj", ".fbx",  ".dae",  ".stl",   ".ply", ".3ds",
+                                                         ".usd", ".usda", ".usdc", ".blend", ".usdz"};
+    std::string extension = path.extension().string();
+    for (char& letter : extension) letter = char(std::tolower(static_cast<unsigned char>(letter)));
+    if (std::find(OTHERS.begin(), OTHERS.end(), extension) == OTHERS.end()) return;
+    throw Error("Tarn reads glTF 2.0 alone (.gltf, .glb); Blender writes it: File, Export, glTF 2.0");
+}
+
 }  // namespace
 
 Scene load_gltf(const std::filesystem::path& path, const GltfOptions& options) {
     try {
+        refuse_other_formats(path);
         GltfDocument document = load_gltf_document(path);
         Scene scene = build_scene(document, options);
         for (const std::string& warning : document.warnings) warn_once(path.string() + ": " + warning);

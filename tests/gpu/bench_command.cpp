@@ -125,14 +125,16 @@ TEST_F(BenchCommand, AFullDiskIsOneLineAndLosesNothing) {
 }
 
 TEST_F(BenchCommand, WrongWordsAreOneLine) {
-    for (const Arguments& wrong :
-         {Arguments{"bench", "--methods", "nobody"}, Arguments{"bench", "--compare", "/none.json"},
-          Arguments{"bench", "--out", "/proc/none"}, Arguments{"report", "/proc"}}) {
+    for (const Arguments& wrong : {Arguments{"bench", "--compare", "/none.json"},
+                                   Arguments{"bench", "--out", "/proc/none"}, Arguments{"report", "/proc"}}) {
         const ProcessResult result = run_tarn(wrong);
         EXPECT_EQ(result.status, 1) << wrong.back();
         EXPECT_EQ(result.error_lines(), 1) << result.err;
     }
     EXPECT_EQ(run_tarn({"bench", "--frames", "5"}).status, 2);
+    const ProcessResult usage = run_tarn({"bench", "--methods", "nobody"});
+    EXPECT_EQ(usage.status, 2);
+    EXPECT_EQ(usage.error_lines(), 1) << usage.err;
 }
 
 }  // namespace

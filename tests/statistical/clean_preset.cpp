@@ -18,7 +18,7 @@ namespace {
 
 constexpr int WIDTH_PX = 96;
 constexpr int HEIGHT_PX = 54;
-constexpr int SEEDS = 12;
+constexpr int SEEDS = 8;
 constexpr int FRAMES = 24;
 constexpr float STEP_M = 0.02f;     // a frame: 1.2 m/s at 60 frames a second
 constexpr double FAR_ABOVE = 20.0;  // the reference's mean

@@ -126,6 +126,26 @@ TEST(WrongUsage, EndsWithStatus2AndSaysWhatIsWrong) {
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
+// Names of methods and of files' kinds are usage too; one line says what is wrong.
+TEST(WrongUsage, OfMethodsAndExtensionsIsOneLine) {
+    const TemporaryFolder folder;
+    for (const Arguments& arguments : {
+             Arguments{"bench", cornell(), "--methods", "no_such_method"},
+             Arguments{"bench", cornell(), "--methods", "restir-fast:beauty=1"},
+             Arguments{"bench", cornell(), "--methods", "ris,ris"},
+             Arguments{"flythrough", "--methods", "no_such_method"},
+             Arguments{"study", "lag", "corner", "--methods", "no_such_method"},
+             Arguments{"floors", cornell(), "--method", "no_such_method"},
+             Arguments{"render", cornell(), "--out", folder.file("a.jpg")},
+             Arguments{"render", cornell(), "--out", folder.path().string()},
+         }) {
+        const ProcessResult result = run_tarn(arguments);
+        EXPECT_EQ(result.status, 2) << join(arguments) << result.err;
+        EXPECT_EQ(result.error_lines(), 1) << join(arguments) << result.err;
+    }
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
 // ---- Files and folders that fail -------------------------------------------------------------------
 
 // Status 1, and one line on stderr that holds `word`.
@@ -153,13 +173,31 @@ TEST(Disappointment, IsOneLineThatNamesTheFile) {
         expect_one_line(with(cornell(), picture) + Arguments{"--environment", cornell()}, "cornell.glb");
         expect_one_line(with(cornell(), picture) + Arguments{"--scene", "7"}, "scene 7");
     }
-    expect_one_line({"render", cornell(), "--out", folder.file("a.jpg")}, "a.jpg");
-    expect_one_line({"render", cornell(), "--out", folder.path().string()}, folder.path().string());
     expect_one_line({"info", folder.file("gone.glb")}, "gone.glb");
     expect_one_line({"compare", folder.file("gone.exr"), folder.file("gone.exr")}, "gone.exr");
     expect_one_line({"flythrough", "--path", folder.file("gone.json"), "--out", folder.file("fly")},
                     "gone.json");
     EXPECT_FALSE(std::filesystem::exists(picture));
+}
+
+TEST(Disappointment, OfAMistypedNameSaysWhichOnesAreNear) {
+    const ProcessResult command = run_tarn({"rendr", "cornell"});
+    EXPECT_EQ(command.status, 2);
+    EXPECT_NE(command.err.find("tarn: 'rendr' is no command; there are: "), std::string::npos) << command.err;
+    EXPECT_NE(command.err.find("; did you mean 'render'?"), std::string::npos) << command.err;
+    const ProcessResult method = run_tarn({"bench", "cornell", "--methods", "restir-fats"});
+    EXPECT_NE(method.err.find("did you mean 'restir-fast' or 'restir-fine'?"), std::string::npos)
+        << method.err;
+    expect_one_line({"info", "lantern_cort"}, "did you mean 'lantern_court'?");
+    EXPECT_EQ(run_tarn({"info", "no_such_scene"}).err.find("did you mean"), std::string::npos);
+}
+
+TEST(Disappointment, OfAnotherFormatSaysHowToConvertIt) {
+    const TemporaryFolder folder;
+    for (const char* name : {"a.obj", "a.FBX", "a.blend"}) {
+        std::ofstream(folder.file(name)) << "v 0 0 0\n";
+        expect_one_line({"info", folder.file(name)}, "glTF 2.0");
+    }
 }
 
 TEST(Disappointment, AFolderThatIsNotThereIsFoundBeforeTheWorkIsDone) {

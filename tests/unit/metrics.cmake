@@ -1,4 +1,5 @@
 tarn_test(statistics LABEL unit LIBRARIES tarn_core)
+tarn_test(near_names LABEL unit LIBRARIES tarn_core)
 tarn_test(goodness_of_fit LABEL unit LIBRARIES tarn_core)
 tarn_test(tile_test LABEL unit LIBRARIES tarn_core)
 foreach(TEST display exposure glare)

@@ -6,6 +6,7 @@
 
 #include "bench/text.h"
 #include "core/error.h"
+#include "core/near_names.h"
 
 namespace tarn {
 namespace {
@@ -108,15 +109,24 @@ bool any_antialiases(const std::vector<Method>& methods) {
                        [](const Method& method) { return method.settings.antialias.moves_samples(); });
 }
 
-Method parse_method(const std::string& text) {
+namespace {
+
+std::vector<std::string> list_names(const std::vector<Method>& table) {
+    std::vector<std::string> names;
+    for (const Method& method : table) names.push_back(method.label);
+    return names;
+}
+
+Method read_method(const std::string& text) {
     const std::size_t colon = text.find(':');
     const std::string name = text.substr(0, colon);
     const auto& table = method_table();
     const auto row =
         std::find_if(table.begin(), table.end(), [&](const Method& m) { return m.label == name; });
     if (row == table.end()) {
-        throw Error("'{}' is no method; there are: {}", name,
-                    fmt::join(table | std::views::transform(&Method::label), ", "));
+        const std::vector<std::string> names = list_names(table);
+        throw Error("'{}' is no method; there are: {}{}", name, fmt::join(names, ", "),
+                    suggest_names(name, names));
     }
     Method method = *row;
     method.label = text;
@@ -128,6 +138,16 @@ Method parse_method(const std::string& text) {
     if (given.contains(method.dial)) method.dial = !method.settings.direct.reuses() ? "samples" : "";
     if (given.contains(method.dial)) method.dial.clear();
     return method;
+}
+
+}  // namespace
+
+Method parse_method(const std::string& text) {
+    try {
+        return read_method(text);
+    } catch (const Error& error) {
+        throw UsageError("{}", error.what());
+    }
 }
 
 std::vector<Method> parse_methods(const std::string& text) {
@@ -144,7 +164,7 @@ std::vector<Method> parse_methods(const std::string& text) {
     for (const std::string& piece : pieces) {
         const auto same = [&](const Method& m) { return m.label == piece; };
         if (std::any_of(methods.begin(), methods.end(), same))
-            throw Error("method '{}' is named twice", piece);
+            throw UsageError("method '{}' is named twice", piece);
         methods.push_back(parse_method(piece));
     }
     return methods;

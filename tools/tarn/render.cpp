@@ -30,7 +30,7 @@ bool is_exr(const std::string& file) {
 void check_output(const std::string& file) {
     const std::string extension = std::filesystem::path(file).extension().string();
     if (extension != ".exr" && extension != ".png") {
-        throw Error("{}: the picture's name must end in .exr or .png", file);
+        throw UsageError("{}: the picture's name must end in .exr or .png", file);
     }
     check_output_folder(file);
 }

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <set>
 
 #include "bench/text.h"
 #include "core/data_files.h"
 #include "core/error.h"
+#include "core/near_names.h"
 #include "image_io/image_io.h"
 #include "scene/gltf_import.h"
 
@@ -114,12 +116,26 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
         ->check(CLI::NonNegativeNumber);
 }
 
+namespace {
+
+std::vector<std::string> list_own_scenes(const DataFolder& content) {
+    std::set<std::string> names;
+    for (const std::filesystem::path& place : list_data_places(content)) {
+        std::error_code ignored;
+        for (const auto& entry : std::filesystem::directory_iterator(place, ignored))
+            if (entry.path().extension() == ".glb") names.insert(entry.path().stem().string());
+    }
+    return {names.begin(), names.end()};
+}
+
+}  // namespace
+
 std::filesystem::path resolve_scene_path(const std::filesystem::path& scene) {
     if (std::filesystem::exists(scene) || scene.has_parent_path() || scene.has_extension()) return scene;
     constexpr DataFolder CONTENT = {"content", "TARN_CONTENT_DIR", TARN_CONTENT_DIR};
     if (const auto own = find_data_file(CONTENT, scene.string() + ".glb")) return *own;
-    throw Error("scene '{}' is neither a file nor a scene of Tarn's own: {}", scene.string(),
-                describe_data_places(CONTENT));
+    throw Error("scene '{}' is neither a file nor a scene of Tarn's own: {}{}", scene.string(),
+                describe_data_places(CONTENT), suggest_names(scene.string(), list_own_scenes(CONTENT)));
 }
 
 LoadedScene load_scene(const SceneOptions& options, const SceneEdit& edit) {
