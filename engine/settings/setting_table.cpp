@@ -233,8 +233,7 @@ void add_antialias_rows(std::vector<Setting>& table) {
     rows.where(&S::joins_frames)
         .choose("antialias-mean",
                 "What a pixel is the mean of: radiance, which keeps all energy, or radiance as the display "
-                "shows it, "
-                "which smooths the edges of lamps too",
+                "shows it, which smooths the edges of lamps too",
                 &S::mean, {"radiance", "display"});
 }
 

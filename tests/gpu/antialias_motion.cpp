@@ -115,6 +115,8 @@ TEST(AntialiasMotion, WhatAWalkLaysBareShowsNoGhost) {
     for (const float step_m : {0.25f, 0.083f, 0.042f, 0.025f})
         EXPECT_LT(ghost(1.0, {0.0f, step_m}), 0.1) << step_m;
     for (const float step_m : {0.05f, 0.025f, 0.015f}) EXPECT_LT(ghost(1.0, {step_m, 0.0f}), 0.1) << step_m;
+    for (const float step_m : {0.083f, 0.042f, 0.025f})
+        EXPECT_LT(ghost(0.33, {0.0f, step_m}), 0.18) << step_m;
 }
 
 TEST(AntialiasMotion, APastThatIsNotClippedIsFound) {
@@ -137,17 +139,21 @@ SightOf see_small_lamps(float gap_m) {
         if (is_lamp(before) || is_lamp(sight.position)) {
             if (is_lamp(before)) sight.position = sight.previous = before;
             sight.radiance = sight.emission = glm::vec3(40.0f);
+            sight.instance = 1.0f;
         }
         return sight;
     };
 }
 
 // Energy of the pictures while the camera walks, over that of the samples that they are made of.
-double find_energy(float gap_m, const glm::vec3& step, const Defines& planted = {}) {
+double find_energy(const std::function<SightOf(int frame)>& sight_of, const glm::vec3& step, bool scene_moves,
+                   const Defines& planted = {}) {
     constexpr int WARM_UP = 32, FRAMES = 128;
     AntialiasStage stage(OUTPUT_PX, 1.0);
     stage.plant(planted);
     stage.has_moved = true;
+    stage.scene_changed = scene_moves;
+    if (scene_moves) stage.change = 0.0f;
     double found = 0.0, expected = 0.0, sample = 0.0;
     stage.spoil = [&](const std::vector<glm::vec4>& radiance) {
         sample = 0.0;
@@ -155,14 +161,18 @@ double find_energy(float gap_m, const glm::vec3& step, const Defines& planted = 
     };
     for (int frame = 0; frame < WARM_UP + FRAMES; ++frame) {
         stage.move_camera(step);
-        const Pixels shown = stage.render(see_small_lamps(gap_m));
+        const Pixels shown = stage.render(sight_of(frame));
         if (frame < WARM_UP) continue;
         for (const glm::vec3& value : shown) found += value.x;
         expected += sample;
     }
-    fmt::print("lamps {} m before the wall, step {}: {:.4f} of the energy\n", gap_m, step.x,
-               found / expected);
     return found / expected;
+}
+
+double find_energy(float gap_m, const glm::vec3& step, const Defines& planted = {}) {
+    const double energy = find_energy([&](int) { return see_small_lamps(gap_m); }, step, false, planted);
+    fmt::print("lamps {} m before the wall, step {}: {:.4f} of the energy\n", gap_m, step.x, energy);
+    return energy;
 }
 
 TEST(AntialiasMotion, LampsSmallerThanAPixelKeepTheirEnergyInMotion) {
@@ -172,6 +182,32 @@ TEST(AntialiasMotion, LampsSmallerThanAPixelKeepTheirEnergyInMotion) {
     EXPECT_NEAR(find_energy(0.2f, 5.0f * WALK), 1.0, 0.05) << "they overtake the wall by 0.05 pixels a frame";
     EXPECT_NEAR(find_energy(1.0f, WALK), 1.0, 0.05);
     EXPECT_LT(find_energy(1.0f, WALK, {"TARN_PLANT_NO_TRUST"}), 0.5);
+}
+
+// A wall full of them that runs past a camera at rest.
+TEST(AntialiasMotion, SmallLampsOfThingsThatMoveKeepTheirEnergy) {
+    const auto running = [](int frame) -> SightOf {
+        return [frame](const glm::vec3& origin, const glm::vec3& direction) {
+            const glm::vec3 run = WALK * float(frame);
+            Sight sight = see_small_lamps(0.0f)(origin - run, direction);
+            sight.position += run;
+            sight.previous = sight.position - WALK;
+            return sight;
+        };
+    };
+    EXPECT_NEAR(find_energy(running, glm::vec3(0.0f), true), 1.0, 0.02);
+}
+
+// They are infinitely far away.
+TEST(AntialiasMotion, StarsKeepTheirEnergy) {
+    const auto sky = [](int) -> SightOf {
+        return [](const glm::vec3&, const glm::vec3& direction) {
+            Sight sight = see_small_lamps(0.0f)(glm::vec3(0.0f), direction);
+            sight.is_sky = true;
+            return sight;
+        };
+    };
+    EXPECT_NEAR(find_energy(sky, WALK, false), 1.0, 0.02);
 }
 
 // ---- Light that changes
@@ -192,6 +228,28 @@ double find_lag(bool is_lamp, std::optional<float> change, const Defines& plante
         });
     }
     return greatest_difference(found, Pixels(found.size(), glm::vec3(0.1f)));
+}
+
+// The same where nothing of the scene has changed: what a smooth surface mirrors moves in its own way.
+double find_mirror_lag(float alpha) {
+    AntialiasStage stage(OUTPUT_PX, 1.0);
+    stage.plant({});
+    stage.has_moved = true;
+    Pixels found;
+    for (int frame = 0; frame < 18; ++frame) {
+        found = stage.render([&](const glm::vec3& origin, const glm::vec3& direction) {
+            Sight sight = see_edge(origin, direction);
+            sight.radiance = glm::vec3(frame < 16 ? 1.0f : 0.1f);
+            sight.alpha = alpha;
+            return sight;
+        });
+    }
+    return greatest_difference(found, Pixels(found.size(), glm::vec3(0.1f)));
+}
+
+TEST(AntialiasMotion, WhatASmoothSurfaceMirrorsIsFollowed) {
+    EXPECT_LT(find_mirror_lag(0.01f), 0.01);
+    EXPECT_GT(find_mirror_lag(0.5f), 0.1);
 }
 
 TEST(AntialiasMotion, ChangedLightIsShownAtOnce) {

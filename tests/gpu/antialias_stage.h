@@ -20,6 +20,7 @@ struct Sight {
     glm::vec3 emission{0.0f};
     float alpha = 1.0f;  // GGX
     bool is_sky = false;
+    float instance = 0.0f;
 };
 
 using SightOf = std::function<Sight(const glm::vec3& origin, const glm::vec3& direction)>;
@@ -133,7 +134,7 @@ class AntialiasStage {
                 position.push_back(s.is_sky ? glm::vec4(0.0f, 0.0f, 0.0f, -1.0f)
                                             : glm::vec4(s.position, 1e-6f));
                 diffuse.emplace_back(0.5f, 0.5f, 0.5f, s.alpha);
-                motion.emplace_back(s.previous, 0.0f);
+                motion.emplace_back(s.previous, s.instance);
                 emission.emplace_back(s.emission, 0.0f);
                 radiance.emplace_back(s.radiance, 1.0f);
             }

@@ -88,6 +88,12 @@ vec2 expect_motion(Nearest nearest) {
 bool emits_otherwise(Nearest present, Nearest past) {
     const float SAME_DEPTH = 0.02f, SAME_LIGHT = 0.05f;  // shares
     if (abs(past.depth - present.depth) > SAME_DEPTH * present.depth) return false;
+#ifdef TARN_MOTION
+    // A lamp of its own that one of the frames missed has not gone out.
+    bool knows_things = has_previous_motion != 0u && present.depth != SKY_DEPTH;
+    float thing = load_layer(present.pixel, LAYER_MOTION).w;
+    if (knows_things && thing != load_previous(past.pixel, LAYER_MOTION).w) return false;
+#endif
     vec3 now = load_layer(present.pixel, LAYER_EMISSION).xyz;
     vec3 before = load_previous(past.pixel, LAYER_EMISSION).xyz;
     return any(greaterThan(abs(now - before), SAME_LIGHT * max(now, before)));
