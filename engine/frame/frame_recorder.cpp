@@ -1,14 +1,11 @@
 #include "frame/frame_recorder.h"
 
 #include "core/error.h"
-#include "gl/driver_quirks.h"
 #include "gl/fence.h"
 #include "shared/interface/bindings.h"
 
 namespace tarn {
 namespace {
-
-constexpr int GROUP_SIZE_PX = 8;
 
 // All the ways in which later passes look at what a compute shader wrote.
 constexpr GLbitfield AFTER_DISPATCH = GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
@@ -189,9 +186,10 @@ void PassRecorder::check_constants(const Program& program) const {
 void PassRecorder::dispatch(const Program& program, const glm::ivec2& size_px) {
     check_constants(program);
     program.use();
+    const glm::ivec2 group_size = program.work_group_size();
+    const glm::uvec2 groups((size_px + group_size - 1) / group_size);
     frame_.time_device_work(name_, [&] {
-        glDispatchCompute(GLuint((size_px.x + GROUP_SIZE_PX - 1) / GROUP_SIZE_PX),
-                          GLuint((size_px.y + GROUP_SIZE_PX - 1) / GROUP_SIZE_PX), 1);
+        glDispatchCompute(groups.x, groups.y, 1);
         glMemoryBarrier(AFTER_DISPATCH);
     });
     note_traffic(false);
@@ -226,8 +224,7 @@ void PassRecorder::note_traffic(bool is_on_cpu) {
 // --------------------------------------------------------------------------------------------------
 
 FrameRecorder::FrameRecorder()
-    : wait_for_each_pass_(find_driver_quirks(query_device_info()).timestamps_at_submission),
-      start_(std::chrono::steady_clock::now()) {}
+    : quirks_(find_driver_quirks(query_device_info())), start_(std::chrono::steady_clock::now()) {}
 
 void FrameRecorder::begin() {
     written_.clear();
@@ -280,7 +277,7 @@ void FrameRecorder::check_written(unsigned id, bool is_texture, const std::strin
 }
 
 void FrameRecorder::time_device_work(const std::string& name, const std::function<void()>& commands) {
-    if (wait_for_each_pass_) {
+    if (quirks_.timestamps_at_submission) {
         Fence().wait();
         const auto start = std::chrono::steady_clock::now();
         commands();

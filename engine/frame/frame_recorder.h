@@ -22,6 +22,7 @@
 #include "frame/timings.h"
 #include "gl/buffer.h"
 #include "gl/debug_output.h"
+#include "gl/driver_quirks.h"
 #include "gl/framebuffer.h"
 #include "gl/program.h"
 #include "gl/query.h"
@@ -149,6 +150,8 @@ class FrameRecorder {
                    GLenum format = GL_RGBA32UI);
     Picture take_picture(const std::string& name, const glm::ivec2& size_px, GLenum format);
 
+    const DriverQuirks& quirks() const { return quirks_; }
+
     // Binds a table for all passes of the frame.
     void bind_table(unsigned unit, const RowBuffer& rows) { rows.texture().bind(unit); }
     // Binds the constants of the frame itself.
@@ -175,7 +178,7 @@ class FrameRecorder {
     Pool<RowBuffer> row_pool_;
     Pool<Texture2D> picture_pool_;
     ConstantsBuffer constants_;
-    bool wait_for_each_pass_;  // quirk: the device's clock does not tell when work is done
+    DriverQuirks quirks_;
     std::set<std::pair<bool, unsigned>> written_;  // (is texture, GL name)
     std::vector<TimestampQuery> queries_;
     std::size_t queries_used_ = 0;

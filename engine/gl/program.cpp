@@ -58,6 +58,12 @@ std::map<unsigned, std::size_t> read_block_sizes(GLuint program) {
     return sizes;
 }
 
+glm::ivec2 read_work_group_size(GLuint program) {
+    GLint size[3] = {};
+    glGetProgramiv(program, GL_COMPUTE_WORK_GROUP_SIZE, size);
+    return {size[0], size[1]};
+}
+
 }  // namespace
 
 void check_shader(const std::string& program_name, const ShaderStage& stage) {
@@ -80,6 +86,7 @@ Program::Program(std::string name, std::span<const ShaderStage> stages)
         throw Error("shader {} does not link: {}", name_,
                     translate_shader_log(stages.front().source, read_program_log(id())));
     block_sizes_ = read_block_sizes(id());
+    if (stages.front().type == GL_COMPUTE_SHADER) work_group_size_ = read_work_group_size(id());
 }
 
 void Program::set(std::string_view uniform, int value) const {

@@ -49,6 +49,9 @@ class Program {
     // Bytes of the uniform block that the program reads at `binding`, as the driver lays it out; 0: none.
     std::size_t uniform_block_size(unsigned binding) const;
 
+    // Invocations of a work group along x and y; 0 for programs without a compute shader.
+    glm::ivec2 work_group_size() const { return work_group_size_; }
+
     const std::string& name() const { return name_; }
     GLuint id() const { return handle_.id(); }
 
@@ -62,6 +65,7 @@ class Program {
     Handle<destroy> handle_;
     mutable std::map<std::string, GLint, std::less<>> locations_;
     std::map<unsigned, std::size_t> block_sizes_;  // by binding
+    glm::ivec2 work_group_size_{0};
 };
 
 }  // namespace tarn

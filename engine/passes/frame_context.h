@@ -45,7 +45,9 @@ struct FrameContext {
     // The compiled shader of a variant (plan/shader_variants.h).
     template <class Variant>
     const Program& compute(const Variant& variant) const {
-        return programs.compute(Variant::PATH, defines_of(variant));
+        Defines defines = defines_of(variant);
+        if (has_row_groups()) defines.push_back("TARN_ROW_GROUPS");
+        return programs.compute(Variant::PATH, defines);
     }
     template <class Variant>
     const Program& graphics(const Variant& variant) const {
@@ -59,6 +61,9 @@ struct FrameContext {
     Rows take_pixel_rows(const std::string& name, std::size_t rows, BufferUse use) const;
 
   private:
+    // Whether work groups are rows of pixels (shaders/lib/pixel_group.glsl).
+    bool has_row_groups() const;
+
     template <class Variant>
     Defines defines_of(const Variant& variant) const {
         Defines defines = variant.defines();

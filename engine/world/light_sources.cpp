@@ -110,6 +110,9 @@ Light make_triangle_light(SceneAccess& access, const Emitter& emitter, std::uint
     const glm::vec3 p2 = access.transform_point(record, access.load_position_os(vertices.z));
     Light light{};
     light.flags = emitter.flags;
+    light.position_error = position_error_bound(access.largest_absolute_term(
+        record, access.load_position_os(vertices.x), access.load_position_os(vertices.y),
+        access.load_position_os(vertices.z)));
     light.position = p0;
     light.edge1 = p1 - p0;
     light.edge2 = p2 - p0;

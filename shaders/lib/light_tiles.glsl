@@ -13,16 +13,22 @@ uint tile_of(ivec2 pixel) {
     return random_bits4(key, DIMENSION_TILE).x % LIGHT_TILE_COUNT;
 }
 
-// One of the tile's samples, chosen by `bits`, its density by power, and the light that it lies on.
-LightCandidate load_tile_candidate(ivec2 pixel, uint bits, out Light light) {
+// One of the tile's samples, chosen by `bits`, its density by power, and what it sends to `point`.
+LightCandidate load_tile_candidate(ivec2 pixel, uint bits, vec3 point, out IncidentLight incident) {
     uint entry = tile_of(pixel) * LIGHT_TILE_SIZE + uniform_index(bits, LIGHT_TILE_SIZE);
     int row = int(entry * LIGHT_TILE_ROWS);
-    light = unpack_light(texelFetch(light_tiles, row), texelFetch(light_tiles, row + 1),
-                         texelFetch(light_tiles, row + 2), texelFetch(light_tiles, row + 3));
-    uvec4 drawn = texelFetch(light_tiles, row + 4);
+    LightTileSample s =
+        unpack_light_tile_sample(texelFetch(light_tiles, row), texelFetch(light_tiles, row + 1),
+                                 texelFetch(light_tiles, row + 2), texelFetch(light_tiles, row + 3));
+    bool triangle = !SCENE_HAS_PUNCTUAL_LIGHTS || (SCENE_HAS_TRIANGLE_LIGHTS && s.is_triangle);
+    if (triangle) {
+        incident = incident_from_place(s.place, point);
+    } else {
+        incident = incident_from_punctual(s.punctual, point);
+        s.drawn.uv = vec2(0.0f);
+    }
     LightCandidate c;
-    c.drawn.light = drawn.x;
-    c.drawn.uv = vec2(uintBitsToFloat(drawn.y), uintBitsToFloat(drawn.z));
-    c.pdf = uintBitsToFloat(drawn.w);
+    c.drawn = s.drawn;
+    c.pdf = s.pdf;
     return c;
 }

@@ -33,7 +33,7 @@ IncidentLight load_previous_incident_light(LightSample drawn, vec3 point) {
 
 float load_previous_light_error(LightSample drawn) {
     if (!is_in_light_table(drawn)) return 0.0f;
-    return light_error(load_previous_light(drawn.light));
+    return unpack_light_error(fetch_light_row(frame_history.y + drawn.light * LIGHT_ROWS));
 }
 
 #else

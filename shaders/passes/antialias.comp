@@ -26,8 +26,7 @@
 #include "shared/math/antialias.h"
 #include "shared/math/denoise.h"
 #include "lib/antialias/trust.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/pixel_group.glsl"
 
 layout(binding = UNIT_PASS_A) uniform sampler2D frame_radiance;
 layout(binding = UNIT_PASS_B) uniform sampler2D last_picture;

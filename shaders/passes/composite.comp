@@ -6,8 +6,7 @@
 #include "lib/frame.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/counters.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/pixel_group.glsl"
 
 layout(binding = UNIT_PASS_A) uniform sampler2D direct_diffuse;
 layout(binding = UNIT_PASS_B) uniform sampler2D direct_specular;

@@ -6,8 +6,7 @@
 #include "shared/math/colour.h"
 #include "shared/math/display.h"
 #include "shared/math/random.h"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/pixel_group.glsl"
 
 layout(binding = UNIT_PASS_A) uniform sampler2D frame_radiance;
 layout(binding = UNIT_PASS_B) uniform usampler2D seen_triangles;

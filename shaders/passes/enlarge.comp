@@ -1,8 +1,7 @@
 // A picture at another size, by bilinear interpolation between pixel centres; what lies beyond the outermost centres
 // takes their value. For enlarging: a smaller picture would skip pixels.
 #include "shared/interface/bindings.h"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/pixel_group.glsl"
 
 layout(binding = UNIT_PASS_A) uniform sampler2D small_picture;
 layout(binding = 0, rgba32f) writeonly uniform image2D out_picture;

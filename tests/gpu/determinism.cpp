@@ -224,6 +224,20 @@ TEST(ReferenceDeterminism, ThreadsGiveTheSameBits) {
     }
 }
 
+// Work groups are rows of pixels on the CPU and blocks on a GPU (gl/driver_quirks.h). Wide enough that rows
+// are chosen.
+TEST(GroupDeterminism, WorkGroupsOfEitherShapeGiveTheSameBits) {
+    Pictures pictures("lantern_court, clean");
+    for (const std::string shape : {"groups_are_rows", "-groups_are_rows"}) {
+        const ProcessResult result =
+            run_process({"env", "TARN_QUIRKS=timestamps_at_submission," + shape, tarn_program(), "render",
+                         content_file("lantern_court").string(), "--size", "300x70", "--frames", "3",
+                         "--time", "1.3", "--time-step", "0.2", "--out", pictures.file(shape)});
+        ASSERT_EQ(result.status, 0) << result.err;
+        pictures.add(shape);
+    }
+}
+
 // What a frame adds to a cache must not depend on the order of threads.
 TEST(CacheDeterminism, ThreadsGiveTheSameBits) {
     for (const std::string cache : {"screen", "world"}) {

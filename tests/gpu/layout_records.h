@@ -168,16 +168,19 @@ inline Record light_record() {
     Record r{"light", LIGHT_ROWS, "fffufffufffuffff", {}, {}, {}, {}};
     r.glsl_unpack = R"(
         Light l = unpack_light(row(0u), row(1u), row(2u), row(3u));
-        put(l.position); put(l.flags); put(l.edge1); put(l.instance); put(l.edge2); put(l.primitive);
-        put(l.radiance); put(l.range);)";
+        put(l.position); put(l.flags | floatBitsToUint(l.position_error)); put(l.edge1); put(l.instance);
+        put(l.edge2); put(l.primitive); put(l.radiance); put(l.range);)";
     r.glsl_pack = R"(
-        Light l; l.position = take3(); l.flags = take(); l.edge1 = take3(); l.instance = take(); l.edge2 = take3();
-        l.primitive = take(); l.radiance = take3(); l.range = take1();
+        Light l; l.position = take3(); uint word = take(); l.flags = word & LIGHT_FLAG_BITS;
+        l.position_error = uintBitsToFloat(word & ~LIGHT_FLAG_BITS); l.edge1 = take3(); l.instance = take();
+        l.edge2 = take3(); l.primitive = take(); l.radiance = take3(); l.range = take1();
         uvec4 a, b, c, d; pack_light(l, a, b, c, d); store(0u, a); store(1u, b); store(2u, c); store(3u, d);)";
     r.pack = [](FieldReader& in, glm::uvec4* rows) {
         Light l;
         l.position = in.take3();
-        l.flags = in.take();
+        const std::uint32_t word = in.take();
+        l.flags = word & LIGHT_FLAG_BITS;
+        l.position_error = uintBitsToFloat(word & ~LIGHT_FLAG_BITS);
         l.edge1 = in.take3();
         l.instance = in.take();
         l.edge2 = in.take3();
@@ -188,7 +191,7 @@ inline Record light_record() {
     };
     r.unpack = [](const glm::uvec4* rows, FieldWriter& out) {
         const Light l = unpack_light(rows[0], rows[1], rows[2], rows[3]);
-        out.put(l.position), out.put(l.flags);
+        out.put(l.position), out.put(l.flags | floatBitsToUint(l.position_error));
         out.put(l.edge1), out.put(l.instance);
         out.put(l.edge2), out.put(l.primitive);
         out.put(l.radiance), out.put(l.range);

@@ -210,12 +210,13 @@ TEST(DirectionalLight, IsTheSameEverywhereAndComesFromAgainstItsTravel) {
     }
 }
 
-TEST(LightRecord, RoundTripKeepsEveryBit) {
+TEST(LightRecord, RoundTripKeepsEveryBitAndTheErrorAsABound) {
     Draws draws(2);
     for (int i = 0; i < 100; ++i) {
         Light light;
         light.position = draws.unit_vector();
-        light.flags = draws.bits();
+        light.flags = draws.bits() & LIGHT_FLAG_BITS;
+        light.position_error = 1e-5f * draws.uniform_float();
         light.edge1 = draws.unit_vector();
         light.instance = draws.bits();
         light.edge2 = draws.unit_vector();
@@ -227,6 +228,8 @@ TEST(LightRecord, RoundTripKeepsEveryBit) {
         const Light back = unpack_light(rows[0], rows[1], rows[2], rows[3]);
         EXPECT_EQ(back.position, light.position);
         EXPECT_EQ(back.flags, light.flags);
+        EXPECT_GE(back.position_error, light.position_error);
+        EXPECT_LE(back.position_error, light.position_error * (1.0f + 1e-4f));
         EXPECT_EQ(back.edge1, light.edge1);
         EXPECT_EQ(back.instance, light.instance);
         EXPECT_EQ(back.edge2, light.edge2);
@@ -234,6 +237,13 @@ TEST(LightRecord, RoundTripKeepsEveryBit) {
         EXPECT_EQ(back.radiance, light.radiance);
         EXPECT_EQ(back.range, light.range);
     }
+}
+
+TEST(LightRecord, LightsWithoutASurfaceHaveNoError) {
+    const Light light = make_punctual(LIGHT_POINT, {1, 2, 3}, {8, 4, 2});
+    uvec4 rows[LIGHT_ROWS];
+    pack_light(light, rows[0], rows[1], rows[2], rows[3]);
+    EXPECT_EQ(unpack_light_error(rows[0]), 0.0f);
 }
 
 }  // namespace

@@ -2,8 +2,7 @@
 #include "shared/interface/bindings.h"
 #include "shared/interface/constants/average.h"
 #include "shared/math/average.h"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/pixel_group.glsl"
 
 layout(binding = UNIT_PASS_A) uniform sampler2D radiance;
 layout(binding = UNIT_PASS_B) uniform sampler2D last_mean;

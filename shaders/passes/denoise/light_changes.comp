@@ -4,8 +4,7 @@
 // has gained or lost, over the greater of before and now, is the share of the light that has changed.
 #include "shared/interface/constants/light_changes.h"
 #include "shared/dialect.h"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/pixel_group.glsl"
 
 layout(binding = UNIT_PASS_A) uniform sampler2D values;
 layout(binding = UNIT_PASS_B) uniform samplerBuffer answers;

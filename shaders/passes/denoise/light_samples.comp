@@ -17,8 +17,7 @@
 #include "shared/math/reservoir.h"
 #include "lib/previous_camera.glsl"
 #include "lib/previous_lights.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/pixel_group.glsl"
 
 layout(binding = UNIT_PASS_A) uniform usamplerBuffer previous_reservoirs;
 layout(binding = UNIT_PASS_B) uniform usamplerBuffer reservoirs;

@@ -5,8 +5,7 @@
 #include "lib/frame.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/receiver.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/pixel_group.glsl"
 
 layout(std430, binding = 0) writeonly buffer Rays { uvec4 out_rays[]; };
 

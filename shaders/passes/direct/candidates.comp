@@ -28,8 +28,7 @@
 
 layout(binding = UNIT_PASS_B) uniform usamplerBuffer brdf_hits;
 #endif
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/pixel_group.glsl"
 
 layout(std430, binding = 0) writeonly buffer Reservoirs { uvec4 out_reservoirs[]; };
 layout(std430, binding = 1) writeonly buffer Rays { uvec4 out_rays[]; };
@@ -143,10 +142,10 @@ uint sky_candidate_count(Stream s) {
 void offer_light(inout Stream s, uint i, float share) {
     uvec4 bits = random_bits4(s.key, sample_dimension(DIMENSION_CANDIDATE + i));
 #if defined(TARN_SELECT_TILES)
-    Light light;
-    LightCandidate c = load_tile_candidate(s.pixel, bits.x, light);
+    IncidentLight incident;
+    LightCandidate c = load_tile_candidate(s.pixel, bits.x, s.receiver.point.position, incident);
     c.pdf *= share;
-    offer_incident(s, c, incident_from_light(light, c.drawn.uv, s.receiver.point.position), i);
+    offer_incident(s, c, incident, i);
 #elif defined(TARN_SELECT_TREE)
     LightCandidate c = draw_light_by_tree(bits, s.receiver.point.position, s.receiver.point.shading_normal);
     c.pdf *= share;

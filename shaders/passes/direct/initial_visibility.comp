@@ -4,7 +4,6 @@
 #include "shared/math/light_sample.h"
 
 #define SAMPLE_ROWS LIGHT_SAMPLE_ROWS
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/pixel_group.glsl"
 
 #include "lib/reuse/initial_visibility.glsl"

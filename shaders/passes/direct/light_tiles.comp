@@ -2,8 +2,7 @@
 #include "lib/scene_buffers.glsl"
 #include "lib/frame.glsl"
 #include "shared/interface/light_tiles.h"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/pixel_group.glsl"
 
 layout(std430, binding = 0) writeonly buffer Tiles { uvec4 out_tiles[]; };
 
@@ -15,9 +14,18 @@ void main() {
     key.frame = frame_size.z;
     key.seed = frame_size.w;
     LightCandidate c = draw_light_by_power(random_bits4(key, DIMENSION_TILE + 1u));
+    Light light = load_light(c.drawn.light);
+    LightTileSample s;
+    s.drawn = c.drawn;
+    s.pdf = c.pdf;
+    s.is_triangle = is_triangle(light);
+    s.place = place_on_triangle(light, c.drawn.uv, load_triangle_radiance(light, c.drawn.uv));
+    s.punctual = light;
+    uvec4 row0, row1, row2, row3;
+    pack_light_tile_sample(s, row0, row1, row2, row3);
     uint row = entry * LIGHT_TILE_ROWS;
-    for (uint i = 0u; i < LIGHT_ROWS; ++i)
-        out_tiles[row + i] = fetch_light_row(c.drawn.light * LIGHT_ROWS + i);
-    out_tiles[row + LIGHT_ROWS] = uvec4(c.drawn.light, floatBitsToUint(c.drawn.uv.x),
-                                        floatBitsToUint(c.drawn.uv.y), floatBitsToUint(c.pdf));
+    out_tiles[row] = row0;
+    out_tiles[row + 1u] = row1;
+    out_tiles[row + 2u] = row2;
+    out_tiles[row + 3u] = row3;
 }

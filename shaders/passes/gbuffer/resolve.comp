@@ -11,8 +11,7 @@
 //             (TARN_MOTION alone)
 #include "lib/scene_buffers.glsl"
 #include "lib/frame.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/pixel_group.glsl"
 
 layout(binding = UNIT_PASS_A) uniform usampler2D seen_triangles;
 layout(binding = 0, rgba32f) writeonly uniform image2D out_position;

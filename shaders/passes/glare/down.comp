@@ -3,8 +3,7 @@
 #include "shared/interface/bindings.h"
 #include "shared/math/display.h"
 #include "shared/math/glare.h"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/pixel_group.glsl"
 
 layout(binding = UNIT_PASS_A) uniform sampler2D large_picture;
 layout(binding = UNIT_PASS_B) uniform usamplerBuffer exposure;

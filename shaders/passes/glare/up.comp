@@ -1,8 +1,7 @@
 // A step up the pyramid of glare: what wider steps have spread, enlarged, and this step's own light.
 #include "shared/interface/bindings.h"
 #include "lib/glare.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/pixel_group.glsl"
 
 layout(binding = UNIT_PASS_A) uniform sampler2D own_light;
 layout(binding = UNIT_PASS_B) uniform sampler2D wider_light;

@@ -11,8 +11,7 @@
 #include "lib/indirect/world_cache.glsl"
 #include "lib/indirect/cached_light.glsl"
 #include "lib/indirect/cache_paths.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/pixel_group.glsl"
 
 layout(binding = UNIT_PASS_A) uniform usamplerBuffer hits;
 layout(binding = UNIT_PASS_B) uniform usamplerBuffer cells;  // of the last frame

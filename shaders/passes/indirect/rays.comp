@@ -9,8 +9,7 @@
 #ifdef TARN_BLUE_NOISE
 #include "lib/blue_noise.glsl"
 #endif
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/pixel_group.glsl"
 
 layout(std430, binding = 0) writeonly buffer Rays { uvec4 out_rays[]; };
 

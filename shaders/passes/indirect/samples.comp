@@ -17,8 +17,7 @@
 #include "lib/indirect/met_light.glsl"
 #endif
 #include "lib/reuse/reservoirs.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/pixel_group.glsl"
 
 layout(binding = UNIT_PASS_A) uniform usamplerBuffer in_path_states;
 layout(binding = UNIT_PASS_B) uniform samplerBuffer answers;  // of the last vertex

@@ -11,8 +11,7 @@
 #include "lib/receiver.glsl"
 #include "lib/indirect/path_samples.glsl"
 #include "lib/reuse/reservoirs.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/pixel_group.glsl"
 
 #ifdef TARN_SHADED
 layout(binding = UNIT_PASS_A) uniform sampler2D summed_diffuse;

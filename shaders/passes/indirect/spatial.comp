@@ -7,7 +7,6 @@
 #include "lib/receiver.glsl"
 #include "lib/neighbour_test.glsl"
 #include "lib/indirect/path_samples.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/pixel_group.glsl"
 
 #include "lib/reuse/spatial.glsl"

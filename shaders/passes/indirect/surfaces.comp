@@ -2,8 +2,7 @@
 // rays which leave it start on a surface. Runs with the coarse picture's frame block.
 #include "lib/frame.glsl"
 #include "lib/gbuffer.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/pixel_group.glsl"
 
 layout(binding = 0, rgba32f) writeonly uniform image2D out_position;
 layout(binding = 1, rgba32f) writeonly uniform image2D out_normals;

@@ -9,7 +9,6 @@
 #include "lib/neighbour_test.glsl"
 #include "lib/previous.glsl"
 #include "lib/indirect/path_samples.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/pixel_group.glsl"
 
 #include "lib/reuse/temporal.glsl"

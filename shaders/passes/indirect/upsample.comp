@@ -10,8 +10,7 @@
 #include "lib/gbuffer.glsl"
 #include "lib/counters.glsl"
 #include "lib/neighbour_test.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/pixel_group.glsl"
 
 layout(binding = UNIT_PASS_A) uniform sampler2D coarse_diffuse;
 layout(binding = UNIT_PASS_B) uniform sampler2D coarse_specular;

@@ -19,8 +19,7 @@
 #include "lib/indirect/world_cache.glsl"
 #endif
 #include "lib/indirect/cached_light.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/pixel_group.glsl"
 
 layout(binding = UNIT_PASS_A) uniform usamplerBuffer hits;
 layout(binding = UNIT_PASS_B) uniform samplerBuffer answers;          // of the vertex before

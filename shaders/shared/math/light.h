@@ -27,11 +27,12 @@ CONSTANT uint LIGHT_ENVIRONMENT = 0xfffffffeu;
 
 // Row layout in `pack_light`. Positions are relative to the world's origin.
 struct Light {
-    vec3 position;  // triangle: first vertex
-    uint flags;     // kind and LIGHT_* bits
-    vec3 edge1;     // triangle: second vertex - first; spot, directional: unit direction of travel
-    uint instance;  // triangle: where it comes from
-    vec3 edge2;     // triangle: third vertex - first; spot: (angle scale, angle offset, 0)
+    vec3 position;         // triangle: first vertex
+    uint flags;            // kind and LIGHT_* bits
+    float position_error;  // bound on the rounding error of positions on the light, metres; 0: no surface
+    vec3 edge1;            // triangle: second vertex - first; spot, directional: unit direction of travel
+    uint instance;         // triangle: where it comes from
+    vec3 edge2;            // triangle: third vertex - first; spot: (angle scale, angle offset, 0)
     uint primitive;
     vec3 radiance;  // triangle: W sr^-1 m^-2; point, spot: W/sr; directional: W/m^2
     float range;    // point, spot: metres, 0 = unlimited; LIGHT_TEXTURED: place of its EmissionMap
@@ -39,10 +40,18 @@ struct Light {
 
 CONSTANT uint LIGHT_ROWS = 4u;
 
+// Flags and error share a word: the low eight bits of the error's mantissa make room.
+CONSTANT uint LIGHT_FLAG_BITS = 0xffu;
+
+FN float unpack_light_error(uvec4 row0) {
+    return uintBitsToFloat(row0.w & ~LIGHT_FLAG_BITS);
+}
+
 FN Light unpack_light(uvec4 row0, uvec4 row1, uvec4 row2, uvec4 row3) {
     Light light;
     light.position = row_xyz(row0);
-    light.flags = row0.w;
+    light.flags = row0.w & LIGHT_FLAG_BITS;
+    light.position_error = unpack_light_error(row0);
     light.edge1 = row_xyz(row1);
     light.instance = row1.w;
     light.edge2 = row_xyz(row2);
@@ -53,7 +62,9 @@ FN Light unpack_light(uvec4 row0, uvec4 row1, uvec4 row2, uvec4 row3) {
 }
 
 FN void pack_light(Light light, OUT(uvec4) row0, OUT(uvec4) row1, OUT(uvec4) row2, OUT(uvec4) row3) {
-    row0 = pack_row(light.position, light.flags);
+    // Rounded up, so that it still is a bound.
+    uint error = (floatBitsToUint(light.position_error) + LIGHT_FLAG_BITS) & ~LIGHT_FLAG_BITS;
+    row0 = pack_row(light.position, light.flags | error);
     row1 = pack_row(light.edge1, light.instance);
     row2 = pack_row(light.edge2, light.primitive);
     row3 = pack_row(light.radiance, floatBitsToUint(light.range));
@@ -127,25 +138,45 @@ FN vec3 triangle_point(Light light, vec2 barycentrics) {
     return light.position + light.edge1 * barycentrics.x + light.edge2 * barycentrics.y;
 }
 
-// Light from the point of a triangle at `barycentrics`; radiance is `radiance`, texture included.
-// A triangle without area, seen edge-on or from behind, or touching the point, sends nothing.
-FN IncidentLight incident_from_triangle(Light light, vec2 barycentrics, vec3 radiance, vec3 point) {
-    IncidentLight incident = no_incident_light();
+// A place on a triangle light, seen from its emitting side.
+struct LightPlace {
+    vec3 position;  // relative to the world's origin, metres
+    vec3 normal;    // unit, on the emitting side; 0 for a triangle without area
+    vec3 radiance;  // W sr^-1 m^-2, texture included
+    bool double_sided;
+};
+
+// The place at `barycentrics`, where the triangle emits `radiance`, texture included.
+FN LightPlace place_on_triangle(Light light, vec2 barycentrics, vec3 radiance) {
+    LightPlace place;
     vec3 normal = cross(light.edge1, light.edge2);
-    float normal_length = length(normal);
-    vec3 to_light = triangle_point(light, barycentrics) - point;
+    float inv_length = ratio_or_zero(1.0f, length(normal));
+    place.position = triangle_point(light, barycentrics);
+    place.normal = normal * ((light.flags & LIGHT_MIRRORED) != 0u ? -inv_length : inv_length);
+    place.radiance = radiance;
+    place.double_sided = (light.flags & LIGHT_DOUBLE_SIDED) != 0u;
+    return place;
+}
+
+// Light from a place. One without area, seen edge-on or from behind, or touching the point, sends nothing.
+FN IncidentLight incident_from_place(LightPlace place, vec3 point) {
+    IncidentLight incident = no_incident_light();
+    vec3 to_light = place.position - point;
     float distance2 = dot(to_light, to_light);
-    if (normal_length == 0.0f || distance2 == 0.0f) return incident;
     float distance = sqrt(distance2);
     vec3 direction = to_light / distance;
-    if ((light.flags & LIGHT_MIRRORED) != 0u) normal = -normal;
-    float cosine = -dot(normal, direction) / normal_length;
-    if (cosine < 0.0f && (light.flags & LIGHT_DOUBLE_SIDED) == 0u) return incident;
+    float cosine = -dot(place.normal, direction);
+    if (distance2 == 0.0f || (cosine < 0.0f && !place.double_sided)) return incident;
     incident.direction = direction;
     incident.distance = distance;
-    incident.light_normal = normal * ((cosine < 0.0f ? -1.0f : 1.0f) / normal_length);
-    incident.value = radiance * (abs(cosine) / distance2);
+    incident.light_normal = cosine < 0.0f ? -place.normal : place.normal;
+    incident.value = place.radiance * (abs(cosine) / distance2);
     return incident;
+}
+
+// Light from a triangle at `barycentrics`, where it emits `radiance`.
+FN IncidentLight incident_from_triangle(Light light, vec2 barycentrics, vec3 radiance, vec3 point) {
+    return incident_from_place(place_on_triangle(light, barycentrics, radiance), point);
 }
 
 // Light from a point, spot or directional light.

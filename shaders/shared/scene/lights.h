@@ -101,19 +101,10 @@ FN vec3 load_triangle_radiance(Light light, vec2 barycentrics) {
     return radiance;
 }
 
-// Bound on the rounding error of positions on the light, metres; 0 for lights without a surface.
-FN float light_error(Light light) {
-    if ((light.flags & LIGHT_KIND_MASK) != LIGHT_TRIANGLE) return 0.0f;
-    InstanceRecord i = load_instance(light.instance);
-    uvec3 vertices = load_vertex_indices(i, light.primitive);
-    return position_error_bound(largest_absolute_term(
-        i, load_position_os(vertices.x), load_position_os(vertices.y), load_position_os(vertices.z)));
-}
-
-// The same for a sample.
+// Bound on the rounding error of a sample's position on its light, metres; 0 for lights without a surface.
 FN float load_light_error(LightSample drawn) {
     if (drawn.light == INVALID_INDEX || drawn.light == LIGHT_ENVIRONMENT) return 0.0f;
-    return light_error(load_light(drawn.light));
+    return unpack_light_error(fetch_light_row(drawn.light * LIGHT_ROWS));
 }
 
 // What a sample at `uv` on a light of the table sends to `point`, before visibility.
