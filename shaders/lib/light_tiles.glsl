@@ -4,7 +4,7 @@
 
 layout(binding = UNIT_PASS_A) uniform usamplerBuffer light_tiles;
 
-// All pixels of an 8 x 8 group share a tile.
+// All pixels of a block of 8 x 8 share a tile.
 uint tile_of(ivec2 pixel) {
     RandomKey key;
     key.pixel = uint(pixel.y / 8) * ((frame_size.x + 7u) / 8u) + uint(pixel.x / 8);
@@ -13,9 +13,20 @@ uint tile_of(ivec2 pixel) {
     return random_bits4(key, DIMENSION_TILE).x % LIGHT_TILE_COUNT;
 }
 
-// One of the tile's samples, chosen by `bits`, its density by power, and what it sends to `point`.
-LightCandidate load_tile_candidate(ivec2 pixel, uint bits, vec3 point, out IncidentLight incident) {
-    uint entry = tile_of(pixel) * LIGHT_TILE_SIZE + uniform_index(bits, LIGHT_TILE_SIZE);
+// The samples of a pixel follow one another in its tile, from a place that `bits` choose: each is drawn independently
+// of the others, so that any of them will do, and those that follow one another are soon in the cache.
+struct LightTileWindow {
+    uint tile_begin;
+    uint first;
+};
+
+LightTileWindow find_tile_window(ivec2 pixel, uint bits) {
+    return LightTileWindow(tile_of(pixel) * LIGHT_TILE_SIZE, uniform_index(bits, LIGHT_TILE_SIZE));
+}
+
+// Sample `i` of the window, its density by power, and what it sends to `point`.
+LightCandidate load_tile_candidate(LightTileWindow window, uint i, vec3 point, out IncidentLight incident) {
+    uint entry = window.tile_begin + (window.first + i) % LIGHT_TILE_SIZE;
     int row = int(entry * LIGHT_TILE_ROWS);
     LightTileSample s =
         unpack_light_tile_sample(texelFetch(light_tiles, row), texelFetch(light_tiles, row + 1),

@@ -58,6 +58,9 @@ struct Stream {
     RandomKey key;
     LightSample chosen;
     LiveReservoir live;
+#ifdef TARN_SELECT_TILES
+    LightTileWindow window;
+#endif
 };
 
 // Density of a sample under the BRDF, in the measure of its light.
@@ -140,18 +143,18 @@ uint sky_candidate_count(Stream s) {
 }
 
 void offer_light(inout Stream s, uint i, float share) {
-    uvec4 bits = random_bits4(s.key, sample_dimension(DIMENSION_CANDIDATE + i));
 #if defined(TARN_SELECT_TILES)
     IncidentLight incident;
-    LightCandidate c = load_tile_candidate(s.pixel, bits.x, s.receiver.point.position, incident);
+    LightCandidate c = load_tile_candidate(s.window, i, s.receiver.point.position, incident);
     c.pdf *= share;
     offer_incident(s, c, incident, i);
 #elif defined(TARN_SELECT_TREE)
+    uvec4 bits = random_bits4(s.key, sample_dimension(DIMENSION_CANDIDATE + i));
     LightCandidate c = draw_light_by_tree(bits, s.receiver.point.position, s.receiver.point.shading_normal);
     c.pdf *= share;
     if (c.pdf > 0.0f) offer(s, c, i);
 #else
-    LightCandidate c = draw_light_by_power(bits);
+    LightCandidate c = draw_light_by_power(random_bits4(s.key, sample_dimension(DIMENSION_CANDIDATE + i)));
     c.pdf *= share;
     offer(s, c, i);
 #endif
@@ -201,6 +204,9 @@ void main() {
     s.key = pixel_key(s.pixel);
     s.chosen = no_light_sample();
     s.live = empty_live_reservoir();
+#ifdef TARN_SELECT_TILES
+    s.window = find_tile_window(s.pixel, random_bits4(s.key, sample_dimension(DIMENSION_CANDIDATE)).x);
+#endif
     offer_all(s);
     float confidence = float(candidate_count);
 #ifdef TARN_BRDF_CANDIDATE
