@@ -124,6 +124,13 @@ PassRecorder& PassRecorder::write_image(unsigned unit, const Texture2D& texture)
     return *this;
 }
 
+PassRecorder& PassRecorder::write_image(unsigned unit, const RowBuffer& rows) {
+    rows.texture().bind_image(unit, GL_WRITE_ONLY);
+    frame_.written_.emplace(false, rows.buffer().id());
+    bytes_written_ += rows.buffer().size_bytes();
+    return *this;
+}
+
 PassRecorder& PassRecorder::read_write_image(unsigned unit, const Texture2D& texture) {
     frame_.check_written(texture.id(), true, name_, texture.name());
     texture.bind_image(unit, GL_READ_WRITE);

@@ -72,6 +72,10 @@ class PassRecorder {
         return read_unchecked(unit, part);
     }
     template <class T>
+    PassRecorder& read(unsigned unit, const Previous<T>& /*value*/, const RowBuffer& part) {
+        return read_unchecked(unit, part);
+    }
+    template <class T>
     PassRecorder& read(unsigned unit, const Previous<T>& /*value*/, const Rows& part) {
         return read_unchecked(unit, *part);
     }
@@ -89,6 +93,7 @@ class PassRecorder {
     }
     // Writes through image unit `unit`.
     PassRecorder& write_image(unsigned unit, const Texture2D& texture);
+    PassRecorder& write_image(unsigned unit, const RowBuffer& rows);
     // Reads what an earlier pass wrote and writes over it.
     PassRecorder& read_write_image(unsigned unit, const Texture2D& texture);
     // Says that the layers of `textures`, bound one by one, are all written.
@@ -108,7 +113,7 @@ class PassRecorder {
     // Draws into `target`, whose colours the pass so writes.
     PassRecorder& write_target(const Framebuffer& target, std::initializer_list<const Texture2D*> colours);
 
-    // Runs a compute shader of 8 x 8 groups once per pixel.
+    // Runs a compute shader once per pixel.
     void dispatch(const Program& program, const glm::ivec2& size_px);
     // Draws the batches of indirect `commands` (as glMultiDrawElementsIndirect reads them), indexed by
     // `vertices`. Depth is reversed: the greater one is nearer. Row 0 of the target is on top.

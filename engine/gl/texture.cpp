@@ -122,8 +122,12 @@ void Texture2D::bind_image(unsigned unit, GLenum access) const {
     glBindImageTexture(unit, id(), 0, GL_FALSE, 0, access, format_.internal_format);
 }
 
+void BufferTexture::bind_image(unsigned unit, GLenum access) const {
+    glBindImageTexture(unit, id(), 0, GL_FALSE, 0, access, format_);
+}
+
 BufferTexture::BufferTexture(std::string name, const Buffer& buffer, GLenum format)
-    : name_(std::move(name)), handle_(create_texture(GL_TEXTURE_BUFFER)) {
+    : name_(std::move(name)), format_(format), handle_(create_texture(GL_TEXTURE_BUFFER)) {
     set_label(GL_TEXTURE, id(), name_);
     const std::size_t texel_count = buffer.size_bytes() / get_pixel_format(format).bytes;
     const GLint64 limit = get_gl_limit(GL_MAX_TEXTURE_BUFFER_SIZE);

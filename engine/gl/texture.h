@@ -126,12 +126,15 @@ class BufferTexture {
 
     // Binds to texture unit `unit` (samplerBuffer, usamplerBuffer).
     void bind(unsigned unit) const { glBindTextureUnit(unit, id()); }
+    // Binds to image unit `unit` (imageBuffer, uimageBuffer) with `access` as of a Texture2D.
+    void bind_image(unsigned unit, GLenum access) const;
 
     const std::string& name() const { return name_; }
     GLuint id() const { return handle_.id(); }
 
   private:
     std::string name_;
+    GLenum format_;
     Handle<detail::delete_texture> handle_;
 };
 

@@ -56,15 +56,30 @@ struct GBufferPass::Target {
     Framebuffer framebuffer;
 };
 
-SurfaceImages::SurfaceImages(const glm::ivec2& size_px)
-    : stack("gbuffer/surface", size_px.x, size_px.y, LAYER_COUNT, GL_RGBA32F) {
-    for (int layer = 0; layer < LAYER_COUNT; ++layer) {
-        layers.emplace_back(fmt::format("gbuffer/surface/{}", layer), stack, layer);
-    }
+SurfaceTable::SurfaceTable(const glm::ivec2& size_px, BufferUse use)
+    : size_px_(size_px),
+      texels_("gbuffer/surface",
+              std::size_t(size_px.x) * std::size_t(size_px.y) * LAYER_STRIDE * sizeof(glm::vec4), use,
+              GL_RGBA32F) {}
+
+std::vector<glm::vec4> SurfaceTable::download(int layer) const {
+    const auto all = texels_.buffer().download<glm::vec4>();
+    std::vector<glm::vec4> values;
+    values.reserve(all.size() / LAYER_STRIDE);
+    for (std::size_t i = std::size_t(layer); i < all.size(); i += LAYER_STRIDE) values.push_back(all[i]);
+    return values;
+}
+
+void SurfaceTable::upload(int layer, std::span<const glm::vec4> values) {
+    auto all = texels_.buffer().download<glm::vec4>();
+    TARN_ASSERT(values.size() * LAYER_STRIDE == all.size(), "{} values for {} pixels", values.size(),
+                all.size() / LAYER_STRIDE);
+    for (std::size_t i = 0; i < values.size(); ++i) all[i * LAYER_STRIDE + std::size_t(layer)] = values[i];
+    texels_.buffer().upload(0, all);
 }
 
 PassRecorder& read_gbuffer(PassRecorder& pass, const GBuffer& gbuffer) {
-    return pass.read(UNIT_SURFACE, gbuffer.surface());
+    return pass.read(UNIT_SURFACE, gbuffer.surfaces->texels());
 }
 
 GBufferPass::GBufferPass(const GpuScene& gpu_scene) : vertex_array_("gbuffer/vertices") {
@@ -150,15 +165,13 @@ GBuffer GBufferPass::record(const FrameContext& frame, const World& world, const
 
 Surfaces GBufferPass::take_surfaces(const glm::ivec2& size_px) {
     return surfaces_.take(fmt::format("{} x {}", size_px.x, size_px.y),
-                          [&] { return SurfaceImages(size_px); });
+                          [&] { return SurfaceTable(size_px); });
 }
 
 Surfaces GBufferPass::resolve(const FrameContext& frame, const Picture& seen) {
     const Surfaces surfaces = take_surfaces(frame.size_px);
     PassRecorder pass = frame.pass("gbuffer/resolve");
-    pass.read(UNIT_PASS_A, seen).write(surfaces->stack);
-    for (int layer = 0; layer < LAYER_COUNT; ++layer)
-        pass.write_image(unsigned(layer), surfaces->layers[std::size_t(layer)]);
+    pass.read(UNIT_PASS_A, seen).write_image(0, surfaces->texels());
     pass.dispatch(frame.compute(ResolveVariant{}), frame.size_px);
     return surfaces;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,23 +15,32 @@
 
 namespace tarn {
 
-// The surface that each pixel sees, RGBA32F. Layout: shaders/passes/gbuffer/resolve.comp.
-struct SurfaceImages {
-    explicit SurfaceImages(const glm::ivec2& size_px);
+// The surface that each pixel sees: LAYER_STRIDE texels RGBA32F a pixel, side by side, row 0 on top. Layout:
+// shaders/passes/gbuffer/resolve.comp.
+class SurfaceTable {
+  public:
+    // Error beyond the texels that a buffer texture of the driver can have.
+    explicit SurfaceTable(const glm::ivec2& size_px, BufferUse use = BufferUse::DEVICE);
 
-    TextureArray stack;             // all layers, read through one texture unit
-    std::vector<Texture2D> layers;  // each alone (LAYER_*)
+    const glm::ivec2& size_px() const { return size_px_; }
+    const RowBuffer& texels() const { return texels_; }
+
+    // One texel (LAYER_*) of every pixel, for tests and reports; waits for the device.
+    std::vector<glm::vec4> download(int layer) const;
+    // Replaces it, of a DYNAMIC table: one value for each pixel.
+    void upload(int layer, std::span<const glm::vec4> values);
+
+  private:
+    glm::ivec2 size_px_;
+    RowBuffer texels_;
 };
 
-using Surfaces = std::shared_ptr<SurfaceImages>;
+using Surfaces = std::shared_ptr<SurfaceTable>;
 
 struct GBuffer {
     Picture seen;  // RG32UI: instance, primitive; INVALID_INDEX: nothing
     Surfaces surfaces;
     std::optional<Previous<Surfaces>> previous;  // what the last frame saw, where it is the one before this
-
-    const TextureArray& surface() const { return surfaces->stack; }
-    const Texture2D& position() const { return surfaces->layers[LAYER_POSITION]; }
 };
 
 // Binds what lib/gbuffer.glsl reads.
@@ -67,7 +77,7 @@ class GBufferPass {
     Surfaces resolve(const FrameContext& frame, const Picture& seen);
 
     Pool<Target> targets_;
-    Pool<SurfaceImages> surfaces_;
+    Pool<SurfaceTable> surfaces_;
     VertexArray vertex_array_;
     std::unique_ptr<Buffer> draw_ids_;
     std::unique_ptr<Buffer> commands_;

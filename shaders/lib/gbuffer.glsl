@@ -1,11 +1,18 @@
 // Reading the G-buffer. Layout: shaders/passes/gbuffer/resolve.comp.
 #include "shared/interface/bindings.h"
+#include "shared/interface/frame_block.h"
+#include "lib/surface_texels.glsl"
 #include "shared/math/packing.h"
 #include "shared/math/shading.h"
 
-layout(binding = UNIT_SURFACE) uniform sampler2DArray surface_layers;
+layout(binding = UNIT_SURFACE) uniform samplerBuffer surface_texels;
 
-vec4 load_layer(ivec2 pixel, int layer) { return texelFetch(surface_layers, ivec3(pixel, layer), 0); }
+// Of a picture `width_px` wide; `pixel` lies within it.
+vec4 load_layer_of(uint width_px, ivec2 pixel, int layer) {
+    return texelFetch(surface_texels, surface_texel(width_px, pixel, layer));
+}
+
+vec4 load_layer(ivec2 pixel, int layer) { return load_layer_of(frame_size.x, pixel, layer); }
 
 ShadingPoint unpack_shading_point(vec4 position, vec4 normals, vec4 diffuse, vec4 specular) {
     ShadingPoint p;

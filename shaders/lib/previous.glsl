@@ -4,7 +4,7 @@
 
 #include "lib/previous_camera.glsl"
 
-layout(binding = UNIT_PREVIOUS_SURFACE) uniform sampler2DArray previous_layers;
+layout(binding = UNIT_PREVIOUS_SURFACE) uniform samplerBuffer previous_texels;
 
 // The pixel through which the last frame's camera saw `position`, of a coarse picture the one whose block holds it;
 // outside of the picture where it did not.
@@ -28,7 +28,7 @@ PixelRay previous_pixel_ray(ivec2 pixel) {
 }
 
 vec4 load_previous_layer(ivec2 pixel, int layer) {
-    return texelFetch(previous_layers, ivec3(pixel, layer), 0);
+    return texelFetch(previous_texels, surface_texel(frame_size.x, pixel, layer));
 }
 
 // What lib/neighbour_test.glsl looks at, as the G-buffer has it.

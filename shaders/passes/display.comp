@@ -59,6 +59,10 @@ vec3 load_exposed(ivec2 shown) {
     return exposed;
 }
 
+vec4 load_shown(ivec2 pixel, int layer) {
+    return load_layer_of(uint(textureSize(seen_triangles, 0).x), pixel, layer);
+}
+
 vec3 view_colour(ivec2 shown) {
     ivec2 pixel = shown * textureSize(seen_triangles, 0) / ivec2(width_px, height_px);
     uvec2 seen = texelFetch(seen_triangles, pixel, 0).xy;
@@ -66,15 +70,15 @@ vec3 view_colour(ivec2 shown) {
 #if defined(TARN_VIEW_LUMINANCE)
     return luminance_colour(texelFetch(frame_radiance, shown, 0).xyz);
 #elif defined(TARN_VIEW_ALBEDO)
-    return srgb_from_linear3(load_layer(pixel, LAYER_DIFFUSE).xyz + load_layer(pixel, LAYER_SPECULAR).xyz);
+    return srgb_from_linear3(load_shown(pixel, LAYER_DIFFUSE).xyz + load_shown(pixel, LAYER_SPECULAR).xyz);
 #elif defined(TARN_VIEW_EMISSION)
-    return encode_exposed(expose(load_layer(pixel, LAYER_EMISSION).xyz, exposure_scale()), tone);
+    return encode_exposed(expose(load_shown(pixel, LAYER_EMISSION).xyz, exposure_scale()), tone);
 #elif defined(TARN_VIEW_GEOMETRIC_NORMALS)
-    return direction_colour(load_layer(pixel, LAYER_NORMALS).xy, is_seen);
+    return direction_colour(load_shown(pixel, LAYER_NORMALS).xy, is_seen);
 #elif defined(TARN_VIEW_SHADING_NORMALS)
-    return direction_colour(load_layer(pixel, LAYER_NORMALS).zw, is_seen);
+    return direction_colour(load_shown(pixel, LAYER_NORMALS).zw, is_seen);
 #elif defined(TARN_VIEW_POSITION_ERROR)
-    return position_error_colour(load_layer(pixel, LAYER_POSITION).w);
+    return position_error_colour(load_shown(pixel, LAYER_POSITION).w);
 #elif defined(TARN_VIEW_PRIMITIVES)
     return is_seen ? primitive_colour(seen) : vec3(0.0f);
 #else

@@ -139,16 +139,14 @@ class AntialiasStage {
                 radiance.emplace_back(s.radiance, 1.0f);
             }
         }
-        const Surfaces surfaces = std::make_shared<SurfaceImages>(size_px());
-        surfaces->layers[LAYER_POSITION].upload(position);
-        surfaces->layers[LAYER_DIFFUSE].upload(diffuse);
-        surfaces->layers[LAYER_EMISSION].upload(emission);
-        surfaces->layers[LAYER_MOTION].upload(motion);
-        context_.recorder().pass("test/write").write(surfaces->stack);
+        const Surfaces surfaces = std::make_shared<SurfaceTable>(size_px(), BufferUse::DYNAMIC);
+        surfaces->upload(LAYER_POSITION, position);
+        surfaces->upload(LAYER_DIFFUSE, diffuse);
+        surfaces->upload(LAYER_EMISSION, emission);
+        surfaces->upload(LAYER_MOTION, motion);
+        context_.recorder().pass("test/write").write_image(0, surfaces->texels());
         std::optional<Previous<Surfaces>> previous = surfaces_.of_frame(frame_ - 1);
-        if (previous && glm::ivec2(previous->value()->stack.width_px(),
-                                   previous->value()->stack.height_px()) != size_px())
-            previous.reset();
+        if (previous && previous->value()->size_px() != size_px()) previous.reset();
         return {nullptr, surfaces, previous};
     }
 

@@ -72,7 +72,7 @@ class CoarsePicture : public testing::Test {
         bind_block(c);
         const glm::ivec2 coarse_px = coarse_size_px(c.size_px, c.step_px);
         const FrameContext coarse = context_.frame(coarse_px, c.size_px);
-        coarse_ = std::make_shared<SurfaceImages>(coarse_px);
+        coarse_ = std::make_shared<SurfaceTable>(coarse_px, BufferUse::DYNAMIC);
         thin_surfaces(coarse, gbuffer, *coarse_);
         std::vector<glm::vec4> diffuse, specular;
         for (int y = 0; y < coarse_px.y; ++y) {
@@ -109,9 +109,9 @@ class CoarsePicture : public testing::Test {
                 layers[3].emplace_back(glm::vec3(s.f0), s.f0 > 0.0f ? 1.0f : 0.0f);
             }
         }
-        const Surfaces surfaces = std::make_shared<SurfaceImages>(size_px);
-        for (std::size_t layer = 0; layer < 4; ++layer) surfaces->layers[layer].upload(layers[layer]);
-        context_.recorder().pass("test/write").write(surfaces->stack);
+        const Surfaces surfaces = std::make_shared<SurfaceTable>(size_px, BufferUse::DYNAMIC);
+        for (std::size_t layer = 0; layer < 4; ++layer) surfaces->upload(int(layer), layers[layer]);
+        context_.recorder().pass("test/write").write_image(0, surfaces->texels());
         return {nullptr, surfaces, std::nullopt};
     }
 
@@ -155,7 +155,7 @@ TEST_F(CoarsePicture, EachOfItsSurfacesIsThatOfOnePixel) {
     for_each_case([&](const Case& c) {
         upsample_light(
             c, [](const glm::ivec2& p) { return show_wall(p); }, [](const glm::ivec2&) { return 1.0f; });
-        const auto positions = coarse_->layers[LAYER_POSITION].download<glm::vec4>();
+        const auto positions = coarse_->download(LAYER_POSITION);
         const glm::ivec2 coarse_px = coarse_size_px(c.size_px, c.step_px);
         ASSERT_EQ(positions.size(), std::size_t(coarse_px.x * coarse_px.y));
         for (int i = 0; i < int(positions.size()); ++i) {

@@ -110,9 +110,9 @@ class DenoiseStage {
                 layers[3].emplace_back(F0, 1.0f);
             }
         }
-        const Surfaces surfaces = std::make_shared<SurfaceImages>(size_px_);
-        for (std::size_t layer = 0; layer < 4; ++layer) surfaces->layers[layer].upload(layers[layer]);
-        context_.recorder().pass("test/write").write(surfaces->stack);
+        const Surfaces surfaces = std::make_shared<SurfaceTable>(size_px_, BufferUse::DYNAMIC);
+        for (std::size_t layer = 0; layer < 4; ++layer) surfaces->upload(int(layer), layers[layer]);
+        context_.recorder().pass("test/write").write_image(0, surfaces->texels());
         return {nullptr, surfaces, std::nullopt};
     }
 

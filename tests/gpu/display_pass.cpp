@@ -30,16 +30,12 @@ std::vector<glm::vec4> make_radiance() {
 
 class DisplayPassTest : public testing::Test {
   protected:
-    DisplayPassTest() {
-        for (Texture2D& layer : surfaces_->layers) layer.clear(glm::vec4(0.0f));
-    }
-
     std::vector<glm::u8vec4> show(DisplayView view, float exposure_ev, const DisplayLook& look = {}) {
         context_.recorder().begin();
         const FrameContext frame = context_.frame(SIZE_PX, SIZE_PX);
         const Picture seen = context_.write_picture("test/seen", SIZE_PX, GL_RG32UI, seen_);
         const Picture radiance = context_.write_picture("test/radiance", SIZE_PX, GL_RGBA32F, radiance_);
-        frame.pass("test/surfaces").write(surfaces_->stack);
+        frame.pass("test/surfaces").write_image(0, surfaces_->texels());
         const Exposure exposure = find_exposure(frame, radiance, {exposure_ev}, std::nullopt);
         const GBuffer gbuffer{seen, surfaces_, std::nullopt};
         const Picture picture = show_frame(frame, {view, look}, radiance, gbuffer, exposure);
@@ -56,12 +52,10 @@ class DisplayPassTest : public testing::Test {
         }
     }
 
-    Texture2D& layer(int index) { return surfaces_->layers[std::size_t(index)]; }
-
     test::PassContext context_;
     std::vector<glm::vec4> radiance_ = make_radiance();
     std::vector<glm::uvec2> seen_ = std::vector<glm::uvec2>(PIXELS, glm::uvec2(INVALID_INDEX));
-    Surfaces surfaces_ = std::make_shared<SurfaceImages>(SIZE_PX);
+    Surfaces surfaces_ = std::make_shared<SurfaceTable>(SIZE_PX, BufferUse::DYNAMIC);
 };
 
 TEST_F(DisplayPassTest, TheWindowShowsWhatThePngHolds) {
@@ -102,7 +96,8 @@ TEST_F(DisplayPassTest, LuminanceIsGreenAtMiddleGrey) {
 
 TEST_F(DisplayPassTest, NormalsPointIntoTheirColours) {
     seen_.assign(PIXELS, glm::uvec2(1, 2));
-    layer(LAYER_NORMALS).clear(glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));  // octahedral: geometric +X, shading +Y
+    // Octahedral: geometric +X, shading +Y.
+    surfaces_->upload(LAYER_NORMALS, std::vector<glm::vec4>(PIXELS, {1.0f, 0.0f, 0.0f, 1.0f}));
     EXPECT_EQ(show(DisplayView::GEOMETRIC_NORMALS, 0.0f)[0].x, 255);
     EXPECT_EQ(show(DisplayView::SHADING_NORMALS, 0.0f)[0].y, 255);
 }

@@ -211,8 +211,8 @@ TEST_F(History, TheGBufferSaysWhereSurfacesWere) {
             const GBuffer gbuffer = renderer.render({stage.camera_, std::uint32_t(frame), 7, {}}).gbuffer;
             if (frame == 0) continue;  // nothing was drawn before
             const auto seen = gbuffer.seen->download<glm::uvec2>();
-            const auto motion = gbuffer.surfaces->layers[LAYER_MOTION].download<glm::vec4>();
-            const auto position = gbuffer.position().download<glm::vec4>();
+            const auto motion = gbuffer.surfaces->download(LAYER_MOTION);
+            const auto position = gbuffer.surfaces->download(LAYER_POSITION);
             int moved = 0;
             for (std::uint32_t pixel = 0; pixel < seen.size(); ++pixel) {
                 if (seen[pixel].x == INVALID_INDEX) continue;

@@ -29,7 +29,7 @@ class Jitter : public OnContext<> {
     }
     std::vector<glm::vec4> find_positions(const glm::vec2& jitter_px) {
         input_.jitter_px = jitter_px;
-        return renderer_.render(input_).gbuffer.position().download<glm::vec4>();
+        return renderer_.render(input_).gbuffer.surfaces->download(LAYER_POSITION);
     }
     glm::uvec2 trace(int x, int y, const glm::vec2& jitter_px) const {
         const glm::vec2 place = glm::vec2(float(x), float(y)) + 0.5f + jitter_px;

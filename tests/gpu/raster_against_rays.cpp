@@ -31,7 +31,7 @@ class RasterAgainstRays : public OnContext<> {
         input.camera = camera;
         const FrameOutput output = renderer.render(input);
         const auto seen = output.gbuffer.seen->download<glm::uvec2>();
-        const auto position = output.gbuffer.position().download<glm::vec4>();
+        const auto position = output.gbuffer.surfaces->download(LAYER_POSITION);
         Agreement a;
         for (int y = 0; y < HEIGHT_PX; ++y) {
             for (int x = 0; x < WIDTH_PX; ++x) {

@@ -111,7 +111,7 @@ class DirectLightCase {
         Renderer renderer(scene_->world, *scene_->tracer, WIDTH_PX, HEIGHT_PX);
         FrameInput input;
         input.camera = camera_;
-        const auto positions = renderer.render(input).gbuffer.position().download<glm::vec4>();
+        const auto positions = renderer.render(input).gbuffer.surfaces->download(LAYER_POSITION);
         SceneAccess access(scene_->world);
         std::set<std::uint32_t> found;
         for (std::uint32_t i = scene_->world.lights.punctual_count; i < scene_->world.lights.count; ++i) {

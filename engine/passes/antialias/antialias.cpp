@@ -43,7 +43,7 @@ Picture antialias(const FrameContext& frame, const GBuffer& gbuffer, const Antia
     if (exposure) pass.read(UNIT_PASS_C, exposure);
     if (input.changes) pass.read(UNIT_PASS_D, input.changes);
     if (gbuffer.previous) {
-        pass.read(UNIT_PREVIOUS_SURFACE, *gbuffer.previous, gbuffer.previous->value()->stack);
+        pass.read(UNIT_PREVIOUS_SURFACE, *gbuffer.previous, gbuffer.previous->value()->texels());
     }
     const AntialiasVariant variant{!frame.has_moved, frame.output_px != frame.size_px, mean};
     pass.dispatch(frame.compute(variant), frame.output_px);

@@ -157,7 +157,7 @@ void read_path_cache(PassRecorder& pass, const PathCache& cache) {
     if (cache.kind == IndirectCache::WORLD) pass.read_table(UNIT_PASS_D, *cache.cells);
     if (cache.kind != IndirectCache::SCREEN) return;
     pass.read(UNIT_PASS_D, *cache.light, cache.light->value())
-        .read(UNIT_PREVIOUS_SURFACE, *cache.surfaces, cache.surfaces->value()->stack);
+        .read(UNIT_PREVIOUS_SURFACE, *cache.surfaces, cache.surfaces->value()->texels());
 }
 
 double estimate_irradiance(const World& world) {

@@ -27,24 +27,20 @@ FrameBlock make_coarse_block(FrameBlock full, int step_px) {
     return full;
 }
 
-void thin_surfaces(const FrameContext& coarse, const GBuffer& gbuffer, const SurfaceImages& target) {
+void thin_surfaces(const FrameContext& coarse, const GBuffer& gbuffer, const SurfaceTable& target) {
     PassRecorder pass = coarse.pass("indirect/surfaces");
-    read_gbuffer(pass, gbuffer).write(target.stack);
-    unsigned unit = 0;
-    for (const int layer : {LAYER_POSITION, LAYER_NORMALS, LAYER_DIFFUSE, LAYER_SPECULAR, LAYER_MOTION}) {
-        pass.write_image(unit++, target.layers[std::size_t(layer)]);
-    }
+    read_gbuffer(pass, gbuffer).write_image(0, target.texels());
     pass.dispatch(coarse.compute(CoarseSurfacesVariant{}), coarse.size_px);
 }
 
 ReflectedLight upsample(const FrameContext& frame, const GBuffer& gbuffer,
-                        const SurfaceImages& coarse_surfaces, const ReflectedLight& coarse_light) {
+                        const SurfaceTable& coarse_surfaces, const ReflectedLight& coarse_light) {
     const ReflectedLight light = take_reflected_light(frame, "indirect/upsample");
     PassRecorder pass = frame.pass("indirect/upsample");
     read_gbuffer(pass, gbuffer)
         .read(UNIT_PASS_A, coarse_light.diffuse)
         .read(UNIT_PASS_B, coarse_light.specular)
-        .read(UNIT_PASS_C, coarse_surfaces.stack)
+        .read(UNIT_PASS_C, coarse_surfaces.texels())
         .write_image(0, *light.diffuse)
         .write_image(1, *light.specular)
         .count(BLOCK_COUNTERS, frame.counters);

@@ -23,12 +23,12 @@ FrameBlock make_coarse_block(FrameBlock full, int step_px);
 
 // Copies the surfaces of the pixels that the coarse picture takes into `target`. `coarse`: of the coarse
 // picture's size, whose frame block is bound.
-void thin_surfaces(const FrameContext& coarse, const GBuffer& gbuffer, const SurfaceImages& target);
+void thin_surfaces(const FrameContext& coarse, const GBuffer& gbuffer, const SurfaceTable& target);
 
 // Light of the picture's surfaces `gbuffer` out of that of the coarse picture's (`coarse_surfaces`,
 // `coarse_light`). Pixels that find no surface like theirs take the light of the nearest, and are counted.
 // The coarse picture's frame block is bound.
 ReflectedLight upsample(const FrameContext& frame, const GBuffer& gbuffer,
-                        const SurfaceImages& coarse_surfaces, const ReflectedLight& coarse_light);
+                        const SurfaceTable& coarse_surfaces, const ReflectedLight& coarse_light);
 
 }  // namespace tarn

@@ -30,7 +30,7 @@ Samples reuse_over_time(const FrameContext& frame, const ReuseShaders& shaders, 
     kernel.constants.permute = settings.permute ? 1u : 0u;
     kernel.read = [&](PassRecorder& pass) {
         pass.read(UNIT_PASS_C, previous, previous.value().reservoirs)
-            .read(UNIT_PREVIOUS_SURFACE, surfaces, surfaces.value()->stack);
+            .read(UNIT_PREVIOUS_SURFACE, surfaces, surfaces.value()->texels());
     };
     return run_reuse_step(frame, kernel, input);
 }

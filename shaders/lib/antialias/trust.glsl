@@ -7,7 +7,7 @@
 // After lib/previous_camera.glsl and shared/math/antialias.h.
 #include "shared/interface/constants/light_changes_cell.h"
 
-layout(binding = UNIT_PREVIOUS_SURFACE) uniform sampler2DArray previous_layers;
+layout(binding = UNIT_PREVIOUS_SURFACE) uniform samplerBuffer previous_texels;
 layout(binding = UNIT_PASS_D) uniform sampler2D light_changes;
 
 const int TAPS = 9;
@@ -40,7 +40,9 @@ Nearest find_nearest(ivec2 pixel) {
     return nearest;
 }
 
-vec4 load_previous(ivec2 pixel, int layer) { return texelFetch(previous_layers, ivec3(pixel, layer), 0); }
+vec4 load_previous(ivec2 pixel, int layer) {
+    return texelFetch(previous_texels, surface_texel(frame_size.x, pixel, layer));
+}
 
 Nearest find_nearest_previous(ivec2 pixel) {
     CameraRecord camera = previous_camera();

@@ -1,7 +1,7 @@
 // From the seen triangle to the surface: the pixel's ray is intersected with it again, so that the position is the
 // one that rays meet, and every texture is read once a pixel, whatever the overdraw.
 //
-// The G-buffer, one layer each (LAYER_*), all RGBA32F:
+// The G-buffer, texels of each pixel (LAYER_*), all RGBA32F:
 //   position  relative to the world's origin, and the bound on its rounding error (-1: nothing to be lit here)
 //   normals   geometric and shading normal, octahedral
 //   diffuse   diffuse albedo, GGX alpha
@@ -12,15 +12,16 @@
 #include "lib/scene_buffers.glsl"
 #include "lib/frame.glsl"
 #include "lib/pixel_group.glsl"
+#include "lib/surface_texels.glsl"
 
 layout(binding = UNIT_PASS_A) uniform usampler2D seen_triangles;
-layout(binding = 0, rgba32f) writeonly uniform image2D out_position;
-layout(binding = 1, rgba32f) writeonly uniform image2D out_normals;
-layout(binding = 2, rgba32f) writeonly uniform image2D out_diffuse;
-layout(binding = 3, rgba32f) writeonly uniform image2D out_specular;
-layout(binding = 4, rgba32f) writeonly uniform image2D out_emission;
+layout(binding = 0, rgba32f) writeonly uniform imageBuffer out_surface;
+
+void store(ivec2 pixel, int layer, vec4 texel) {
+    imageStore(out_surface, surface_texel(frame_size.x, pixel, layer), texel);
+}
+
 #ifdef TARN_MOTION
-layout(binding = 5, rgba32f) writeonly uniform image2D out_motion;
 
 // The instances of the last frame follow those of this one; theirs are its vertices too (GpuScene).
 vec3 load_previous_position(uvec2 seen, vec2 barycentrics) {
@@ -60,21 +61,21 @@ vec2 intersect_triangle(PixelRay ray, uint instance_index, uint primitive) {
 }
 
 void store_sky(ivec2 pixel, vec3 direction) {
-    imageStore(out_position, pixel, vec4(0.0f, 0.0f, 0.0f, -1.0f));
-    imageStore(out_normals, pixel, vec4(0.0f));
-    imageStore(out_diffuse, pixel, vec4(0.0f));
-    imageStore(out_specular, pixel, vec4(0.0f));
-    imageStore(out_emission, pixel, vec4(load_environment(direction), 0.0f));
+    store(pixel, LAYER_POSITION, vec4(0.0f, 0.0f, 0.0f, -1.0f));
+    store(pixel, LAYER_NORMALS, vec4(0.0f));
+    store(pixel, LAYER_DIFFUSE, vec4(0.0f));
+    store(pixel, LAYER_SPECULAR, vec4(0.0f));
+    store(pixel, LAYER_EMISSION, vec4(load_environment(direction), 0.0f));
 }
 
 void store_surface(ivec2 pixel, Surface s) {
     ShadingPoint p = s.point;
-    imageStore(out_position, pixel, vec4(p.position, s.unlit ? -1.0f : p.position_error));
-    imageStore(out_normals, pixel,
-               vec4(encode_octahedral(p.geometric_normal), encode_octahedral(p.shading_normal)));
-    imageStore(out_diffuse, pixel, vec4(p.material.diffuse_albedo, p.material.alpha));
-    imageStore(out_specular, pixel, vec4(p.material.f0, p.material.f90));
-    imageStore(out_emission, pixel, vec4(s.emission, 0.0f));
+    store(pixel, LAYER_POSITION, vec4(p.position, s.unlit ? -1.0f : p.position_error));
+    store(pixel, LAYER_NORMALS,
+          vec4(encode_octahedral(p.geometric_normal), encode_octahedral(p.shading_normal)));
+    store(pixel, LAYER_DIFFUSE, vec4(p.material.diffuse_albedo, p.material.alpha));
+    store(pixel, LAYER_SPECULAR, vec4(p.material.f0, p.material.f90));
+    store(pixel, LAYER_EMISSION, vec4(s.emission, 0.0f));
 }
 
 void main() {
@@ -89,6 +90,6 @@ void main() {
     vec2 barycentrics = intersect_triangle(ray, seen.x, seen.y);
     store_surface(pixel, evaluate_surface(seen.x, seen.y, barycentrics, ray.direction));
 #ifdef TARN_MOTION
-    imageStore(out_motion, pixel, vec4(load_previous_position(seen, barycentrics), float(seen.x)));
+    store(pixel, LAYER_MOTION, vec4(load_previous_position(seen, barycentrics), float(seen.x)));
 #endif
 }

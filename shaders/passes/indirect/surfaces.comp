@@ -4,23 +4,21 @@
 #include "lib/gbuffer.glsl"
 #include "lib/pixel_group.glsl"
 
-layout(binding = 0, rgba32f) writeonly uniform image2D out_position;
-layout(binding = 1, rgba32f) writeonly uniform image2D out_normals;
-layout(binding = 2, rgba32f) writeonly uniform image2D out_diffuse;
-layout(binding = 3, rgba32f) writeonly uniform image2D out_specular;
-#ifdef TARN_MOTION
-layout(binding = 4, rgba32f) writeonly uniform image2D out_motion;
-#endif
+layout(binding = 0, rgba32f) writeonly uniform imageBuffer out_surface;
+
+void thin(ivec2 pixel, int layer) {
+    vec4 texel = load_layer_of(frame_full.x, full_pixel(pixel), layer);
+    imageStore(out_surface, surface_texel(frame_size.x, pixel, layer), texel);
+}
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (is_outside(pixel)) return;
-    ivec2 full = full_pixel(pixel);
-    imageStore(out_position, pixel, load_layer(full, LAYER_POSITION));
-    imageStore(out_normals, pixel, load_layer(full, LAYER_NORMALS));
-    imageStore(out_diffuse, pixel, load_layer(full, LAYER_DIFFUSE));
-    imageStore(out_specular, pixel, load_layer(full, LAYER_SPECULAR));
+    thin(pixel, LAYER_POSITION);
+    thin(pixel, LAYER_NORMALS);
+    thin(pixel, LAYER_DIFFUSE);
+    thin(pixel, LAYER_SPECULAR);
 #ifdef TARN_MOTION
-    imageStore(out_motion, pixel, load_layer(full, LAYER_MOTION));
+    thin(pixel, LAYER_MOTION);
 #endif
 }

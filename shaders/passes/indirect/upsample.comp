@@ -14,7 +14,7 @@
 
 layout(binding = UNIT_PASS_A) uniform sampler2D coarse_diffuse;
 layout(binding = UNIT_PASS_B) uniform sampler2D coarse_specular;
-layout(binding = UNIT_PASS_C) uniform sampler2DArray coarse_layers;
+layout(binding = UNIT_PASS_C) uniform samplerBuffer coarse_texels;
 layout(binding = 0, rgba32f) writeonly uniform image2D out_diffuse;
 layout(binding = 1, rgba32f) writeonly uniform image2D out_specular;
 
@@ -31,16 +31,20 @@ Place make_place(vec4 position, vec4 normals, vec4 diffuse, vec4 specular) {
                  max_component(diffuse.xyz) > 0.0f, max(max_component(specular.xyz), specular.w) > 0.0f);
 }
 
+vec4 load_full(ivec2 pixel, int layer) { return load_layer_of(frame_full.x, pixel, layer); }
+
 Place load_place(ivec2 pixel) {
-    return make_place(load_layer(pixel, LAYER_POSITION), load_layer(pixel, LAYER_NORMALS),
-                      load_layer(pixel, LAYER_DIFFUSE), load_layer(pixel, LAYER_SPECULAR));
+    return make_place(load_full(pixel, LAYER_POSITION), load_full(pixel, LAYER_NORMALS),
+                      load_full(pixel, LAYER_DIFFUSE), load_full(pixel, LAYER_SPECULAR));
+}
+
+vec4 load_coarse(ivec2 coarse, int layer) {
+    return texelFetch(coarse_texels, surface_texel(frame_size.x, coarse, layer));
 }
 
 Place load_coarse_place(ivec2 coarse) {
-    return make_place(texelFetch(coarse_layers, ivec3(coarse, LAYER_POSITION), 0),
-                      texelFetch(coarse_layers, ivec3(coarse, LAYER_NORMALS), 0),
-                      texelFetch(coarse_layers, ivec3(coarse, LAYER_DIFFUSE), 0),
-                      texelFetch(coarse_layers, ivec3(coarse, LAYER_SPECULAR), 0));
+    return make_place(load_coarse(coarse, LAYER_POSITION), load_coarse(coarse, LAYER_NORMALS),
+                      load_coarse(coarse, LAYER_DIFFUSE), load_coarse(coarse, LAYER_SPECULAR));
 }
 
 // Light with weights: x, y of vectors are base and layer.

@@ -12,7 +12,7 @@
 #define UNIT_ENVIRONMENT_TEXELS 7
 #define UNIT_ENVIRONMENT_ALIAS 8
 
-// Texture units 9-10: the surfaces that this frame and the one before see (a stack of images each).
+// Texture units 9-10: the surfaces that this frame and the one before see (a buffer texture each).
 #define UNIT_SURFACE 9
 #define UNIT_PREVIOUS_SURFACE 10
 
@@ -23,7 +23,8 @@
 #define UNIT_PASS_D 14
 #define UNIT_PASS_E 15
 
-// Layers of a surface stack; what they hold: shaders/passes/gbuffer/resolve.comp.
+// Texels of a surface; what they hold: shaders/passes/gbuffer/resolve.comp. Those of a pixel follow one
+// another: the first four, which reuse reads of neighbours, fill a line of the cache.
 #define LAYER_POSITION 0
 #define LAYER_NORMALS 1
 #define LAYER_DIFFUSE 2
@@ -31,6 +32,7 @@
 #define LAYER_EMISSION 4
 #define LAYER_MOTION 5
 #define LAYER_COUNT 6
+#define LAYER_STRIDE 8
 
 // Uniform blocks.
 #define BLOCK_FRAME 0
