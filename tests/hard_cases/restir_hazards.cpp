@@ -203,7 +203,9 @@ TEST_F(RestirHazards, MirrorsKeepTheirEnergyAmongNeighbours) {
     EXPECT_GT(alone, 1e-4);
     for (const Mis mis : {Mis::ONE_OVER_Z, Mis::BALANCE, Mis::PAIRWISE})
         EXPECT_NEAR(mirrored_light(Reuse::SPATIAL, mis) / alone, 1.0, 0.02) << int(mis);
-    EXPECT_LT(mirrored_light(Reuse::SPATIAL, Mis::ONE_OVER_Z, {"TARN_PLANT_COUNT_MIRRORS"}) / alone, 0.9);
+    // Counted all the same, the energy hangs on samples that a run meets too seldom or, by chance, too often.
+    const double counted = mirrored_light(Reuse::SPATIAL, Mis::ONE_OVER_Z, {"TARN_PLANT_COUNT_MIRRORS"});
+    EXPECT_GT(std::abs(counted / alone - 1.0), 0.1);
 }
 
 }  // namespace

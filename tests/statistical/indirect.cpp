@@ -6,12 +6,13 @@
 
 #include "core/statistics.h"
 #include "direct_light_case.h"
+#include "metrics/frame_mean.h"
 #include "shared/math/colour.h"
 
 namespace tarn::test {
 namespace {
 
-constexpr int SEEDS = 24;
+constexpr int SEEDS = 16;
 constexpr int FIRST_FRAME_SEEDS = 96;
 constexpr int MOVING_FRAMES = 12;
 constexpr int COARSE_SEEDS = 32;
@@ -82,18 +83,21 @@ class Indirect : public OnContext<> {
         input.settings = settings;
         input.camera = box.camera();
         TileSamples samples(WIDTH_PX, HEIGHT_PX, DirectLightCase::tile_px("cornell"));
+        const int first_averaged = moves ? frame : frame + 1 - averaged_frames(frame);
         for (int seed = 0; seed < seeds; ++seed) {
             input.seed = std::uint32_t(seed) + 8000u;
             renderer.reset_history();
+            FrameMean mean;
             for (int i = 0; i <= frame; ++i) {
                 input.frame = std::uint32_t(i);
                 if (moves) input.camera = move_camera(box, frame - i);
                 const FrameOutput output = renderer.render(input);
-                if (i < frame) continue;
-                Image image = renderer.read_radiance(output.radiance);
-                box.clear_left_out(image);
-                samples.add(image);
+                if (i < first_averaged) continue;
+                mean.add(renderer.read_radiance(output.radiance));
             }
+            Image image = mean.mean();
+            box.clear_left_out(image);
+            samples.add(image);
         }
         if (planted.empty()) expect_silence(renderer, settings, seeds * (frame + 1));
         return box.test(samples, fmt::format("{}, frame {}", what, frame + 1));
@@ -168,7 +172,7 @@ TEST_F(Indirect, ReusedSamplesHaveTheReferencesMeanWhateverTheWeights) {
         const std::string what = fmt::format("restir, mis {}", int(mis));
         expect_pass(run(unbiased(mis), what, 0, FIRST_FRAME_SEEDS), what);
         // Pairwise has the shortest tails, 1/Z the longest.
-        const int seeds = mis == Mis::PAIRWISE ? SEEDS : mis == Mis::BALANCE ? 2 * SEEDS : 6 * SEEDS;
+        const int seeds = mis == Mis::PAIRWISE ? SEEDS : mis == Mis::BALANCE ? 2 * SEEDS : 7 * SEEDS;
         expect_pass(run(unbiased(mis), what, 15, seeds), what);
     }
 }
@@ -180,7 +184,7 @@ TEST_F(Indirect, ReusedSamplesKeepTheReferencesMeanForManyFrames) {
 TEST_F(Indirect, AllSamplesOfAStepTogetherHaveTheReferencesMean) {
     RenderSettings settings = unbiased(Mis::BALANCE);
     settings.indirect.reuse.shade = SampleShading::ALL;
-    expect_pass(run(settings, "restir, shade all", 7, 4 * SEEDS), "shade all");
+    expect_pass(run(settings, "restir, shade all", 7, 6 * SEEDS), "shade all");
 }
 
 TEST_F(Indirect, ReusedSamplesOfSeveralBouncesHaveTheReferencesMean) {
@@ -191,7 +195,7 @@ TEST_F(Indirect, ReusedSamplesOfSeveralBouncesHaveTheReferencesMean) {
 }
 
 TEST_F(Indirect, AMovingCameraKeepsTheReferencesMean) {
-    expect_pass(run(unbiased(Mis::PAIRWISE), "restir, moving", MOVING_FRAMES - 1, 2 * SEEDS, {}, true),
+    expect_pass(run(unbiased(Mis::PAIRWISE), "restir, moving", MOVING_FRAMES - 1, 3 * SEEDS, {}, true),
                 "moving");
 }
 
@@ -274,7 +278,7 @@ TEST_F(Indirect, MistakesOfTheReconnectionAreFound) {
             // The subtlest one takes more seeds to stand out.
             const bool is_subtle = bug == std::string("TARN_PLANT_DROP_RECONNECTION_JACOBIAN");
             const TileTest test = run(unbiased(mis), fmt::format("{} {}", bug, int(mis)), 7,
-                                      is_subtle ? 2 * SEEDS : SEEDS, {bug});
+                                      is_subtle ? 2 * SEEDS : 3 * SEEDS / 2, {bug});
             EXPECT_FALSE(test.passes) << bug << " with mis " << int(mis);
         }
     }

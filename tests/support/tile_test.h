@@ -21,6 +21,7 @@
 // the remedy.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -62,6 +63,13 @@ struct TileReference {
     Image mean;
     Image variance;
 };
+
+// How many of the frames up to `last`, counted from 0, a test of a still camera averages for each seed: all
+// have the same mean, and the noise of each adds news. Eight of them have 0.63 of one's variance. Not the
+// early ones, whose history is short.
+constexpr int averaged_frames(int last) {
+    return std::clamp((last + 1) / 2, 1, 8);
+}
 
 // Collects images of independent seeds as tile means and tests them against a reference.
 class TileSamples {
