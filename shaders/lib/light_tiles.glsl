@@ -32,12 +32,7 @@ LightCandidate load_tile_candidate(LightTileWindow window, uint i, vec3 point, o
         unpack_light_tile_sample(texelFetch(light_tiles, row), texelFetch(light_tiles, row + 1),
                                  texelFetch(light_tiles, row + 2), texelFetch(light_tiles, row + 3));
     bool triangle = !SCENE_HAS_PUNCTUAL_LIGHTS || (SCENE_HAS_TRIANGLE_LIGHTS && s.is_triangle);
-    if (triangle) {
-        incident = incident_from_place(s.place, point);
-    } else {
-        incident = incident_from_punctual(s.punctual, point);
-        s.drawn.uv = vec2(0.0f);
-    }
+    incident = incident_from_tile_sample(s, triangle, point);
     LightCandidate c;
     c.drawn = s.drawn;
     c.pdf = s.pdf;

@@ -2,6 +2,8 @@
 // went bad, samples that never die.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/statistics.h"
 #include "support/on_context.h"
 #include "support/toy_render.h"

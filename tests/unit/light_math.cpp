@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "shared/interface/light_tiles.h"
 #include "shared/math/warp.h"
 #include "support/draws.h"
 
@@ -237,6 +238,52 @@ TEST(LightRecord, RoundTripKeepsEveryBitAndTheErrorAsABound) {
         EXPECT_EQ(back.radiance, light.radiance);
         EXPECT_EQ(back.range, light.range);
     }
+}
+
+// A light of every kind, anew for each `i`.
+Light make_any(Draws& draws, int i) {
+    const vec3 position = draws.unit_vector(), colour = draws.uniform_vec3();
+    if (i % 7 < 4) {
+        const uint flags =
+            LIGHT_TRIANGLE | (i % 2 == 0 ? LIGHT_DOUBLE_SIDED : 0u) | (i % 4 < 2 ? LIGHT_MIRRORED : 0u);
+        Light light = make_triangle(position, draws.unit_vector(), draws.unit_vector(), flags);
+        light.radiance = colour;
+        return light;
+    }
+    const uint kind = i % 7 == 4 ? LIGHT_POINT : i % 7 == 5 ? LIGHT_SPOT : LIGHT_DIRECTIONAL;
+    Light light = make_punctual(kind, position, colour, i % 2 == 0 ? 4.0f : 0.0f);
+    set_cones(light, draws.unit_vector(), 0.2, 2.5);
+    return light;
+}
+
+TEST(LightTiles, ASampleSendsWhatItsLightSends) {
+    Draws draws(9);
+    int lit = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const Light light = make_any(draws, i);
+        const bool triangle = (light.flags & LIGHT_KIND_MASK) == LIGHT_TRIANGLE;
+        LightSample drawn;
+        drawn.light = uint(i);
+        drawn.uv = triangle ? sample_triangle(draws.uniform_vec2()) : vec2(0.0f);
+        const vec3 radiance = draws.uniform_vec3(), point = draws.unit_vector() * 3.0f;
+        uvec4 rows[LIGHT_TILE_ROWS];
+        pack_light_tile_sample(make_light_tile_sample(light, drawn, 0.25f, radiance), rows[0], rows[1],
+                               rows[2], rows[3]);
+        const LightTileSample s = unpack_light_tile_sample(rows[0], rows[1], rows[2], rows[3]);
+        EXPECT_EQ(s.is_triangle, triangle);
+        EXPECT_EQ(s.drawn.light, drawn.light);
+        EXPECT_EQ(s.drawn.uv, drawn.uv);
+        EXPECT_EQ(s.pdf, 0.25f);
+        const IncidentLight found = incident_from_tile_sample(s, triangle, point);
+        const IncidentLight expected = triangle ? incident_from_triangle(light, drawn.uv, radiance, point)
+                                                : incident_from_punctual(light, point);
+        EXPECT_EQ(found.value, expected.value) << i;
+        EXPECT_EQ(found.direction, expected.direction) << i;
+        EXPECT_EQ(found.distance, expected.distance) << i;
+        EXPECT_EQ(found.light_normal, expected.light_normal) << i;
+        lit += expected.value.x > 0.0f;
+    }
+    EXPECT_GT(lit, 1000);
 }
 
 TEST(LightRecord, LightsWithoutASurfaceHaveNoError) {

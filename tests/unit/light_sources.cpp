@@ -100,6 +100,22 @@ TEST(LightSources, ALightsPlaceIsThatOfItsTriangle) {
     }
 }
 
+// Shadow rays end before the light by this much; a hit on the same triangle has the same bound.
+TEST(LightSources, ALightKnowsHowWrongItsPlaceMayBe) {
+    Draws draws(4);
+    for (int i = 0; i < 100; ++i) {
+        const Lamp lamp = random_lamp(draws, emissive_material(glm::vec3(1.0f)), i % 2 == 1);
+        SceneAccess access(lamp.world);
+        LightSample sample{};
+        sample.light = 0;
+        sample.uv = sample_triangle(draws.uniform_vec2());
+        const float met = access.evaluate_surface(0, 0, sample.uv, glm::vec3(0, 0, 1)).point.position_error;
+        EXPECT_GT(met, 0.0f);
+        EXPECT_GE(access.load_light_error(sample), met);
+        EXPECT_LE(access.load_light_error(sample), met * 1.0001f);
+    }
+}
+
 // A Lambertian emitter sends pi * area * radiance from each of its sides, a point 4 pi * intensity.
 TEST(LightSources, PowerIsRadianceTimesAreaTimesPiForEachSide) {
     Draws draws(3);

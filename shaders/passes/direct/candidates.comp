@@ -28,6 +28,7 @@
 
 layout(binding = UNIT_PASS_B) uniform usamplerBuffer brdf_hits;
 #endif
+
 #include "lib/pixel_group.glsl"
 
 layout(std430, binding = 0) writeonly buffer Reservoirs { uvec4 out_reservoirs[]; };
@@ -172,6 +173,11 @@ void offer_all(inout Stream s) {
         }
     }
     if (get_light_count() > 0u) {
+#ifdef TARN_SELECT_TILES
+        // By the number of its first candidate, which no candidate of the sky has.
+        uvec4 bits = random_bits4(s.key, sample_dimension(DIMENSION_CANDIDATE + sky_count));
+        s.window = find_tile_window(s.pixel, bits.x);
+#endif
         for (uint i = sky_count; i < candidate_count; ++i) offer_light(s, i, 1.0f - share);
     }
 }
@@ -204,9 +210,6 @@ void main() {
     s.key = pixel_key(s.pixel);
     s.chosen = no_light_sample();
     s.live = empty_live_reservoir();
-#ifdef TARN_SELECT_TILES
-    s.window = find_tile_window(s.pixel, random_bits4(s.key, sample_dimension(DIMENSION_CANDIDATE)).x);
-#endif
     offer_all(s);
     float confidence = float(candidate_count);
 #ifdef TARN_BRDF_CANDIDATE

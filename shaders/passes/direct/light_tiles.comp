@@ -15,12 +15,8 @@ void main() {
     key.seed = frame_size.w;
     LightCandidate c = draw_light_by_power(random_bits4(key, DIMENSION_TILE + 1u));
     Light light = load_light(c.drawn.light);
-    LightTileSample s;
-    s.drawn = c.drawn;
-    s.pdf = c.pdf;
-    s.is_triangle = is_triangle(light);
-    s.place = place_on_triangle(light, c.drawn.uv, load_triangle_radiance(light, c.drawn.uv));
-    s.punctual = light;
+    LightTileSample s =
+        make_light_tile_sample(light, c.drawn, c.pdf, load_triangle_radiance(light, c.drawn.uv));
     uvec4 row0, row1, row2, row3;
     pack_light_tile_sample(s, row0, row1, row2, row3);
     uint row = entry * LIGHT_TILE_ROWS;

@@ -21,6 +21,23 @@ struct LightTileSample {
     Light punctual;
 };
 
+// The sample `drawn` on `light` with density `pdf`; `radiance` is that of a triangle there, texture included.
+FN LightTileSample make_light_tile_sample(Light light, LightSample drawn, float pdf, vec3 radiance) {
+    LightTileSample s;
+    s.drawn = drawn;
+    s.pdf = pdf;
+    s.is_triangle = (light.flags & LIGHT_KIND_MASK) == LIGHT_TRIANGLE;
+    s.place = place_on_triangle(light, drawn.uv, radiance);
+    s.punctual = light;
+    return s;
+}
+
+// What it sends to `point`, before visibility; `triangle`: what it is, or must be in this scene.
+FN IncidentLight incident_from_tile_sample(LightTileSample s, bool triangle, vec3 point) {
+    if (triangle) return incident_from_place(s.place, point);
+    return incident_from_punctual(s.punctual, point);
+}
+
 // Rows of a triangle: (position, light), (normal, pdf), (radiance, flags), (barycentrics); of a punctual
 // light: (position, light), (direction, pdf), (radiance, flags), (cone, range).
 FN void pack_light_tile_sample(LightTileSample s, OUT(uvec4) row0, OUT(uvec4) row1, OUT(uvec4) row2,
@@ -43,7 +60,7 @@ FN LightTileSample unpack_light_tile_sample(uvec4 row0, uvec4 row1, uvec4 row2, 
     LightTileSample s;
     s.is_triangle = (row2.w & LIGHT_KIND_MASK) == LIGHT_TRIANGLE;
     s.drawn.light = row0.w;
-    s.drawn.uv = vec2(uintBitsToFloat(row3.x), uintBitsToFloat(row3.y));
+    s.drawn.uv = s.is_triangle ? vec2(uintBitsToFloat(row3.x), uintBitsToFloat(row3.y)) : vec2(0.0f);
     s.pdf = uintBitsToFloat(row1.w);
     s.place.position = row_xyz(row0);
     s.place.normal = row_xyz(row1);
