@@ -71,6 +71,11 @@ class DirectLightCase {
         return test;
     }
 
+    // Whether more seeds would tell nothing new of a planted mistake.
+    bool stands_out(const TileSamples& samples) const {
+        return tarn::stands_out(samples, reference_, SIGNIFICANCE);
+    }
+
   private:
     void render_reference_image(std::uint64_t spp, int bounces) {
         ReferenceSettings settings;

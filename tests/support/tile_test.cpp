@@ -339,6 +339,12 @@ TileTest TileSamples::test(const TileSamples& other, double significance, double
     return finish(pooled.run(significance), non_finite_ + other.non_finite_);
 }
 
+bool stands_out(const TileSamples& samples, const TileReference& reference, double significance) {
+    constexpr int LOOK_EVERY = 8;
+    if (samples.seed_count() == 0 || samples.seed_count() % LOOK_EVERY != 0) return false;
+    return !samples.test(reference, significance / 100.0).passes;
+}
+
 TileTest test_tiles(const TileReference& samples, const TileReference& reference, int tile_size_px,
                     double significance, double rounding) {
     const Grid grid{reference.mean.width, reference.mean.height, tile_size_px};

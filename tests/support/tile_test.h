@@ -98,6 +98,11 @@ class TileSamples {
     std::size_t non_finite_ = 0;
 };
 
+// Whether a planted mistake stands out so far that more seeds are not worth their time. Looks after every
+// eighth seed, and so at a hundredth of `significance`: several looks together find no more by chance than
+// the one at the end.
+bool stands_out(const TileSamples& samples, const TileReference& reference, double significance = 0.01);
+
 // z-test per tile of two images whose pixels are all independent, each with its mean and the variance of that
 // mean.
 TileTest test_tiles(const TileReference& samples, const TileReference& reference, int tile_size_px = 16,
