@@ -136,13 +136,15 @@ IndirectPlan plan_indirect(const IndirectSettings& settings) {
     return plan;
 }
 
-DenoisePlan plan_denoise(const RenderSettings& settings, const SceneFeatures& features) {
+DenoisePlan plan_denoise(const RenderSettings& settings, const DirectPlan& direct,
+                         const SceneFeatures& features) {
     DenoisePlan plan;
     plan.runs = settings.denoise.runs() && settings.direct.debug_view == DebugView::NONE;
     plan.mode = plan.runs ? settings.denoise.mode : DenoiseMode::OFF;
     plan.keeps_filtered = settings.denoise.knows_variance();
-    plan.adapts = plan.mode == DenoiseMode::SVGF && settings.direct.reuses_time() &&
-                  (features.motion || features.light_history);
+    plan.adapts = plan.mode == DenoiseMode::SVGF && (features.motion || features.light_history);
+    // Samples that nobody has tested may be in shadow: what their lamps do would change nothing.
+    plan.light_samples.asks_rays = features.motion || !direct.reuse.tests_fresh_samples;
     plan.steps = settings.denoise.steps;
     plan.kernel = settings.denoise.kernel;
     plan.accumulate = {settings.indirect.runs(), plan.adapts};
@@ -169,7 +171,7 @@ FramePlan make_plan(const FeatureSurvey& survey, const RenderSettings& settings)
     plan.feature_reasons = survey.reasons;
     plan.direct = plan_direct(settings.direct);
     plan.indirect = plan_indirect(settings.indirect);
-    plan.denoise = plan_denoise(settings, plan.features);
+    plan.denoise = plan_denoise(settings, plan.direct, plan.features);
     plan.antialias = plan_antialias(settings);
     plan.composite.indirect = plan.indirect.runs && !plan.denoise.runs;
     const DebugView view = plan.direct.view;

@@ -79,6 +79,7 @@ struct DenoisePlan {
     bool keeps_filtered =
         false;            // the history is what the filter's first step makes; else the mean over time
     bool adapts = false;  // the history is cut short where light changes
+    LightSamplesVariant light_samples;
     int steps = 1;
     DenoiseKernel kernel = DenoiseKernel::BOX3;
     DenoiseAccumulateVariant accumulate;
@@ -119,7 +120,8 @@ struct FramePlan {
 DirectPlan plan_direct(const DirectSettings& settings);
 IndirectPlan plan_indirect(const IndirectSettings& settings);
 // Debug views are shown as they are.
-DenoisePlan plan_denoise(const RenderSettings& settings, const SceneFeatures& features);
+DenoisePlan plan_denoise(const RenderSettings& settings, const DirectPlan& direct,
+                         const SceneFeatures& features);
 
 // Debug views too.
 AntialiasPlan plan_antialias(const RenderSettings& settings);

@@ -261,6 +261,14 @@ std::vector<DenoiseAccumulateVariant> DenoiseAccumulateVariant::all() {
     return {{false, false}, {false, true}, {true, false}, {true, true}};
 }
 
+Defines LightSamplesVariant::defines() const {
+    return asks_rays ? Defines{"TARN_ASK_RAYS"} : Defines{};
+}
+
+std::vector<LightSamplesVariant> LightSamplesVariant::all() {
+    return {{false}, {true}};
+}
+
 Defines DenoiseFilterVariant::defines() const {
     constexpr std::array<const char*, 3> KERNELS = {"TARN_KERNEL_CROSS", "TARN_KERNEL_BOX3",
                                                     "TARN_KERNEL_BOX5"};

@@ -202,8 +202,12 @@ struct DenoiseAccumulateVariant {
     static std::vector<DenoiseAccumulateVariant> all();
 };
 
-struct LightSamplesVariant : PlainVariant<LightSamplesVariant> {
+struct LightSamplesVariant {
     static constexpr const char* PATH = "denoise/light_samples";
+    static constexpr bool IS_OF_SCENE = true;
+    bool asks_rays = false;  // whether the samples are seen
+    Defines defines() const;
+    static std::vector<LightSamplesVariant> all();
 };
 struct LightChangesVariant : PlainVariant<LightChangesVariant> {
     static constexpr bool IS_OF_SCENE = false;

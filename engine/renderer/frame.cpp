@@ -71,8 +71,13 @@ std::optional<Previous<KeptLight>> Renderer::find_previous_light(const FrameCont
 std::optional<Previous<KeptSamples>> Renderer::find_previous_samples(const FrameContext& frame) const {
     if (!frame.plan.denoise.adapts || !gpu_scene_.is_changing() || history_.direct.empty())
         return std::nullopt;
+    auto previous = find_previous(frame, history_.direct.front());
     const DirectPlan& plan = frame.plan.direct;
-    return find_previous(frame, plan.reuse, history_.direct.front(), plan.targets.front());
+    if (!previous || previous->value().meaning != meaning_of(plan.reuse, plan.targets.front()))
+        return std::nullopt;
+    const bool asks_rays = frame.plan.denoise.light_samples.asks_rays;
+    if (asks_rays && !frame.tracer.remembers(frame.previous->geometry_revision)) return std::nullopt;
+    return previous;
 }
 
 Picture Renderer::compare_light(const FrameContext& frame, const GBuffer& gbuffer,
@@ -141,8 +146,12 @@ ReflectedLight Renderer::light_directly(const FrameContext& frame, const GBuffer
             fresh = apply_direct_visibility(frame, std::move(fresh), seen);
         }
 
-        const ReusedSamples reused =
-            reuse_samples(frame, direct_reuse(frame), gbuffer, slot, fresh, history_.direct[slot.lane]);
+        History<KeptSamples>& kept = history_.direct[slot.lane];
+        const ReusedSamples reused = reuse_samples(frame, direct_reuse(frame), gbuffer, slot, fresh, kept);
+        // Without reuse the next frame still compares light by them. Whether it does is known only then.
+        if (!reuse.runs() && frame.plan.denoise.mode == DenoiseMode::SVGF && slot.index == 0) {
+            kept.keep(frame.frame, {fresh.reservoirs, meaning_of(reuse, slot.target_weights)});
+        }
         if (plan.is_lit_by_reuse()) return reused.light;
         Answers seen;
         if (reuse.tests_chosen_samples) {

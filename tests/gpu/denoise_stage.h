@@ -62,7 +62,7 @@ class DenoiseStage {
 
     // The next frame. What it kept is the history of the one after it.
     Denoised render(const SceneOf& scene, const LightOf& light) {
-        plan_.denoise = plan_denoise(settings, {});
+        plan_.denoise = plan_denoise(settings, {}, {});
         jitter_px_ = find_jitter(frame_, jitter_count);
         context_.recorder().begin();
         Denoised result;

@@ -12,7 +12,7 @@ Picture find_light_changes(const FrameContext& frame, const GBuffer& gbuffer,
                            const Previous<KeptSamples>& previous, const KeptSamples& present) {
     const glm::ivec2 cells = (frame.size_px + CHANGE_CELL - 1) / CHANGE_CELL;
     const std::size_t rays_count = std::size_t(cells.x) * std::size_t(cells.y) * CHANGE_RAYS;
-    const bool traces = frame.plan.features.motion;
+    const bool traces = frame.plan.denoise.light_samples.asks_rays;
     const LightChangeConstants constants{std::uint32_t(cells.x), std::uint32_t(cells.y), traces ? 1u : 0u};
     const Picture values = frame.recorder.take_picture("denoise/light_samples", cells, GL_RGBA32F);
     Rows rays;
@@ -28,7 +28,7 @@ Picture find_light_changes(const FrameContext& frame, const GBuffer& gbuffer,
             .read(UNIT_PASS_B, present.reservoirs)
             .write_image(0, *values);
         if (rays) pass.write(0, rays);
-        pass.dispatch(frame.compute(LightSamplesVariant{}), cells);
+        pass.dispatch(frame.compute(frame.plan.denoise.light_samples), cells);
     }
     Answers answers;
     if (rays) {

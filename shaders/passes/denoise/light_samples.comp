@@ -6,7 +6,7 @@
 // Filtering", 2018; they shade last frame's random numbers again, which here the reservoirs stand for). The last frame's
 // samples know of lights that went out, this frame's of lights that went on.
 //
-// Where things move, rays ask whether the samples were and are seen.
+// TARN_ASK_RAYS: rays ask whether the samples were and are seen: where things move, and where nobody has asked before.
 #define TARN_PREVIOUS_FRAME
 #include "shared/interface/constants/light_changes.h"
 #include "lib/scene_buffers.glsl"
@@ -22,7 +22,7 @@
 layout(binding = UNIT_PASS_A) uniform usamplerBuffer previous_reservoirs;
 layout(binding = UNIT_PASS_B) uniform usamplerBuffer reservoirs;
 layout(binding = 0, rgba32f) writeonly uniform image2D out_values;
-#ifdef TARN_MOTION
+#ifdef TARN_ASK_RAYS
 layout(std430, binding = 0) writeonly buffer Rays { uvec4 out_rays[]; };
 #endif
 
@@ -71,7 +71,7 @@ Comparison compare(ShadingPoint here, ShadingPoint there, LightSample present, L
     return c;
 }
 
-#ifdef TARN_MOTION
+#ifdef TARN_ASK_RAYS
 void store_ray(uint row, RayRecord ray) {
     uvec4 row0, row1;
     pack_ray(ray, row0, row1);
@@ -114,7 +114,7 @@ void main() {
         fresh = compare(here, there, present, moved(present, true), pixel_index(pixel));
     }
     imageStore(out_values, cell, vec4(kept.now, kept.before, fresh.now, fresh.before));
-#ifdef TARN_MOTION
+#ifdef TARN_ASK_RAYS
     store_rays(cell, kept, fresh);
 #endif
 }
