@@ -99,6 +99,12 @@ struct ViewState final : SceneFollower {
     ViewState& operator=(const ViewState&) = delete;
 
     void follow_scene() override { renderer->update(); }
+    void rebuild() override {
+        const int width_px = renderer->width_px(), height_px = renderer->height_px();
+        last.reset();
+        renderer.reset();
+        renderer = std::make_unique<Renderer>(scene->world, scene->find_tracer(), width_px, height_px);
+    }
 
     void render(const Frame& frame) {
         scene->update();

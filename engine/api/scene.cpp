@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "api/guard.h"
 #include "api/scene_state.h"
@@ -55,10 +56,27 @@ RayTracer& SceneState::find_tracer() {
 void SceneState::update() {
     if (!is_stale) return;
     is_stale = false;
+    if (is_outgrown) return build_anew();
     update_world(world, scene, time_s);
     scene.moves.clear();
     if (tracer) tracer->update(world);
     for (SceneFollower* follower : followers) follower->follow_scene();
+}
+
+// The sky stays: it is no part of the tables.
+void SceneState::build_anew() {
+    is_outgrown = false;
+    WorldEnvironment sky = std::move(world.environment);
+    WorldOptions options;
+    options.time_s = time_s;
+    world = build_world(scene, options);
+    world.environment = std::move(sky);
+    scene.moves.clear();
+    world.moves_followed = scene.moves.count();
+    if (!tracer) return;
+    // Views hold the old one until they have let go of it.
+    const std::unique_ptr<RayTracer> old = std::exchange(tracer, create_embree_tracer(world));
+    for (SceneFollower* follower : followers) follower->rebuild();
 }
 
 Scene::Scene(std::shared_ptr<SceneState> state) : state_(std::move(state)) {}

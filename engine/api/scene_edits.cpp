@@ -3,40 +3,15 @@
 #include <cmath>
 
 #include "api/guard.h"
-#include "api/scene_state.h"
+#include "api/scene_checks.h"
 
 namespace tarn::api {
 namespace {
 
-bool is_finite(const Vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-tarn::Node& find(SceneState& state, Node node) {
-    if (node.index >= state.scene.nodes.size())
-        throw Error(fmt::format("node {}: the scene has {}", node.index, state.scene.nodes.size()));
-    return state.scene.nodes[node.index];
-}
-
 PunctualLight& find_light(SceneState& state, Node node) {
-    const tarn::Node& found = find(state, node);
+    const tarn::Node& found = find_node_of(state, node);
     if (!found.light.is_set()) throw Error(fmt::format("node {} '{}' has no light", node.index, found.name));
     return at(state.scene.lights, found.light);
-}
-
-glm::dquat checked_rotation(const Rotation& rotation) {
-    const glm::dquat q(rotation.w, rotation.x, rotation.y, rotation.z);
-    const double length = glm::length(q);
-    if (!(length > 0.0 && std::isfinite(length)))
-        throw Error(fmt::format("a rotation is a quaternion of length {}", length));
-    return q / length;
-}
-
-tarn::Transform checked_transform(const Transform& transform) {
-    if (!is_finite(transform.translation) || !is_finite(transform.scale))
-        throw Error("a node's transform holds numbers that are not finite");
-    return {from_public(transform.translation), checked_rotation(transform.rotation),
-            from_public(transform.scale)};
 }
 
 PunctualLight checked_light(const Light& light, std::string name) {
@@ -56,12 +31,6 @@ PunctualLight checked_light(const Light& light, std::string name) {
             light.inner_cone_rad, light.outer_cone_rad,        light.range_m};
 }
 
-// An edit that may have changed anything but meshes.
-void note_edit(SceneState& state) {
-    ++state.scene.revision;
-    state.is_stale = true;
-}
-
 }  // namespace
 
 std::size_t Scene::node_count() const {
@@ -69,7 +38,7 @@ std::size_t Scene::node_count() const {
 }
 
 std::string Scene::node_name(Node node) const {
-    return find(*state_, node).name;
+    return find_node_of(*state_, node).name;
 }
 
 Node Scene::find_node(const std::string& name) const {
@@ -81,7 +50,7 @@ Node Scene::find_node(const std::string& name) const {
 }
 
 Transform Scene::transform(Node node) const {
-    const tarn::Node& found = find(*state_, node);
+    const tarn::Node& found = find_node_of(*state_, node);
     if (found.matrix) {
         throw Error(fmt::format("node {} '{}' is placed by a matrix, until a transform is set", node.index,
                                 found.name));
@@ -91,7 +60,7 @@ Transform Scene::transform(Node node) const {
 }
 
 void Scene::set_transform(Node node, const Transform& transform) {
-    tarn::Node& found = find(*state_, node);
+    tarn::Node& found = find_node_of(*state_, node);
     found.local = checked_transform(transform);
     found.matrix.reset();
     state_->scene.moves.add(NodeIndex(node.index));
@@ -113,7 +82,7 @@ Light Scene::light(Node node) const {
 void Scene::set_light(Node node, const Light& light) {
     tarn::Scene& scene = state_->scene;
     PunctualLight edited = checked_light(light, find_light(*state_, node).name);
-    tarn::Node& lit = find(*state_, node);
+    tarn::Node& lit = find_node_of(*state_, node);
     const bool is_shared =
         std::count_if(scene.nodes.begin(), scene.nodes.end(),
                       [&](const tarn::Node& other) { return other.light == lit.light; }) > 1;
@@ -129,7 +98,7 @@ void Scene::set_light(Node node, const Light& light) {
 void Scene::remove_light(Node node) {
     find_light(*state_, node);
     std::erase(state_->scene.light_nodes, NodeIndex(node.index));
-    find(*state_, node).light = LightIndex();
+    find_node_of(*state_, node).light = LightIndex();
     note_edit(*state_);
 }
 

@@ -11,11 +11,12 @@
 
 namespace tarn::api {
 
-// Told when the world has moved; see SceneState::update.
+// Told when the world has moved, or was built anew with other geometry; see SceneState::update.
 class SceneFollower {
   public:
     virtual ~SceneFollower() = default;
     virtual void follow_scene() = 0;
+    virtual void rebuild() = 0;
 };
 
 struct SceneState {
@@ -24,11 +25,15 @@ struct SceneState {
     std::unique_ptr<RayTracer> tracer;  // once a view needs it
     double time_s = -1.0;
     bool is_stale = false;                  // the world lags behind scene and time
+    bool is_outgrown = false;               // and has to be built anew: things or materials came or went
     std::vector<SceneFollower*> followers;  // all views of this scene
 
     RayTracer& find_tracer();
     // Brings world, rays and all views to what scene and time say.
     void update();
+
+  private:
+    void build_anew();
 };
 
 // A public vector or placement as GLM's, and back.

@@ -1,6 +1,7 @@
 # The public surface of the library, in a context of its own and in somebody else's.
 tarn_test(library LABEL gpu LIBRARIES tarn_api tarn_image_io)
 tarn_test(library_views LABEL gpu LIBRARIES tarn_api tarn_image_io)
+tarn_test(library_things LABEL gpu LIBRARIES tarn_api)
 tarn_test(library_rest LABEL gpu LIBRARIES tarn_api tarn_image_io)
 tarn_test(library_in_host LABEL gpu LIBRARIES tarn_api tarn_platform PkgConfig::EGL)
 add_dependencies(test_library tarn tarn_scenes)

@@ -41,6 +41,22 @@ struct Light {
     double range_m = 0.0;                        // point, spot: nothing beyond; 0: unlimited
 };
 
+// What a material looks like: factors, which textures multiply where the file has them.
+struct Surface {
+    Vec3 base_color{0.8, 0.8, 0.8};  // linear, 0 to 1
+    double roughness = 0.5;          // 0 to 1
+    double metallic = 0.0;           // 0 to 1
+    Vec3 emission;                   // radiance, W sr^-1 m^-2; 0: it does not shine
+};
+
+// The triangles of one mesh on one node: of all that it has of one material.
+struct Triangles {
+    Node node;
+    std::vector<Vec3> corners;  // three a triangle, metres, world space
+    bool is_animated = false;   // an animation moves or deforms them
+    bool has_holes = false;     // its texture cuts parts out of it, as out of leaves
+};
+
 // How much there is in a scene.
 struct SceneFacts {
     std::size_t triangles = 0;  // of all instances
@@ -93,6 +109,37 @@ class Scene {
     Transform transform(Node node) const;
     // Error for numbers that are not finite.
     void set_transform(Node node, const Transform& transform);
+
+    // ---- Geometry
+    // All of it as it stands at this moment. Costs a pass over every triangle.
+    std::vector<Triangles> triangles() const;
+
+    // ---- Materials, in the file's order, then those that came later. The same may be on many nodes. These
+    // throw Error where there is no such material.
+    std::size_t material_count() const;
+    std::string material_name(std::size_t material) const;
+    // Of a node's triangles; empty where it has none.
+    std::vector<std::size_t> materials(Node node) const;
+    Surface surface(std::size_t material) const;
+    // Error for what is out of its range. Lamps that begin or cease to shine cost more than others: the table
+    // of all lights is made anew.
+    void set_surface(std::size_t material, const Surface& surface);
+
+    // ---- Things that come and go. Each of these calls makes the next frame of every view build all that the
+    // view keeps anew, as after loading: seconds. So let things come before the first frame, and then move
+    // them (set_transform) and switch them (set_surface), which is cheap. A thing must not have an extent of
+    // 0: to hide one, move it out of sight.
+    // Gives a node's triangles materials of their own, so that set_surface changes this node alone.
+    void separate_materials(Node node);
+    // A new thing on a new node without parent, with a material of its own. The sphere has
+    // 20 * 4^subdivisions triangles, each of which is a light where it shines; subdivisions: 0 to 6.
+    Node add_sphere(double radius_m, int subdivisions, const Surface& surface, const Transform& transform);
+    Node add_box(const Vec3& half_extent_m, const Surface& surface, const Transform& transform);
+    // The mesh of a node once more, with the same materials, on a new node without parent. Error where there
+    // is none, and where it deforms.
+    Node add_copy(Node source, const Transform& transform);
+    // Takes its mesh from a node. Error where it has none.
+    void remove_mesh(Node node);
 
     // ---- Lights, known by their nodes. Meshes that shine are no lights in this sense.
     std::vector<Node> lights() const;
