@@ -25,6 +25,7 @@ pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)
 if(TARN_TOOLS)
   find_package(CLI11 REQUIRED)
   find_package(glfw3 3.3 REQUIRED)
+  pkg_check_modules(BULLET REQUIRED IMPORTED_TARGET bullet)  # for the sandbox
   pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
   pkg_check_modules(OSMESA REQUIRED osmesa)  # for --context osmesa, loaded at run time
   find_path(IMGUI_INCLUDE_DIR imgui.h PATH_SUFFIXES imgui REQUIRED)

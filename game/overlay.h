@@ -1,7 +1,8 @@
-// Dear ImGui over a window, and the keys and mouse movements that it leaves to the viewer.
+// Widgets over a window, and the keys and mouse movements that it leaves to the viewer.
 #pragma once
 
 #include "fly_camera.h"
+#include "widgets.h"
 #include "window.h"
 #include "window_input.h"
 
@@ -21,7 +22,6 @@ struct ViewerInput {
 class Overlay {
   public:
     explicit Overlay(Window& window);
-    ~Overlay();
     Overlay(const Overlay&) = delete;
     Overlay& operator=(const Overlay&) = delete;
 
@@ -35,7 +35,8 @@ class Overlay {
     void read_keys(ViewerInput& input) const;
     void read_mouse(ViewerInput& input);
 
-    WindowInput input_;
+    WindowInput input_;  // before the widgets, which pass keys on to it
+    Widgets widgets_;
     bool looking_ = false;
 };
 

@@ -121,4 +121,27 @@ bool Window::is_minimized() const {
     return glfwGetWindowAttrib(handle_, GLFW_ICONIFIED) == GLFW_TRUE || framebuffer_size() == Size{};
 }
 
+bool Window::has_focus() const {
+    return glfwGetWindowAttrib(handle_, GLFW_FOCUSED) == GLFW_TRUE;
+}
+
+bool Window::is_fullscreen() const {
+    return glfwGetWindowMonitor(handle_) != nullptr;
+}
+
+void Window::set_fullscreen(bool fullscreen) {
+    if (fullscreen == is_fullscreen()) return;
+    if (!fullscreen) {
+        glfwSetWindowMonitor(handle_, nullptr, left_px_, top_px_, size_.width_px, size_.height_px,
+                             GLFW_DONT_CARE);
+        return;
+    }
+    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+    const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
+    if (mode == nullptr) return;
+    glfwGetWindowPos(handle_, &left_px_, &top_px_);
+    glfwGetWindowSize(handle_, &size_.width_px, &size_.height_px);
+    glfwSetWindowMonitor(handle_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
 }  // namespace game

@@ -51,11 +51,17 @@ class Window {
     // Of the default framebuffer: 0 while the window is minimized.
     Size framebuffer_size() const;
     bool is_minimized() const;
+    bool has_focus() const;
+    bool is_fullscreen() const;
+    // Over the whole of the first monitor, or as it was before. Nothing where there is no monitor.
+    void set_fullscreen(bool fullscreen);
 
     GLFWwindow* native_handle() const { return handle_; }
 
   private:
     GLFWwindow* handle_;
+    int left_px_ = 0, top_px_ = 0;  // before it was fullscreen
+    Size size_;
 };
 
 }  // namespace game

@@ -5,17 +5,46 @@
 
 namespace game {
 
+namespace {
+
+WindowInput& input_of(GLFWwindow* handle) {
+    return *static_cast<WindowInput*>(glfwGetWindowUserPointer(handle));
+}
+
+}  // namespace
+
 WindowInput::WindowInput(Window& window) : window_(window) {
-    glfwSetWindowUserPointer(window_.native_handle(), this);
-    glfwSetKeyCallback(window_.native_handle(), [](GLFWwindow* handle, int key, int, int action, int) {
-        if (action == GLFW_PRESS)
-            static_cast<WindowInput*>(glfwGetWindowUserPointer(handle))->pressed_.insert(key);
+    GLFWwindow* handle = window_.native_handle();
+    glfwSetWindowUserPointer(handle, this);
+    glfwSetKeyCallback(handle, [](GLFWwindow* sender, int key, int, int action, int) {
+        if (action == GLFW_PRESS) input_of(sender).pressed_.insert(key);
     });
+    glfwSetMouseButtonCallback(handle, [](GLFWwindow* sender, int button, int action, int) {
+        if (action == GLFW_PRESS) input_of(sender).clicked_.insert(button);
+    });
+    glfwSetScrollCallback(
+        handle, [](GLFWwindow* sender, double, double steps) { input_of(sender).wheel_steps_ += steps; });
 }
 
 WindowInput::~WindowInput() {
     glfwSetKeyCallback(window_.native_handle(), nullptr);
+    glfwSetMouseButtonCallback(window_.native_handle(), nullptr);
+    glfwSetScrollCallback(window_.native_handle(), nullptr);
     glfwSetWindowUserPointer(window_.native_handle(), nullptr);
+}
+
+void WindowInput::forget() {
+    pressed_.clear();
+    clicked_.clear();
+    wheel_steps_ = 0.0;
+}
+
+Vec2 WindowInput::take_mouse_way() {
+    Vec2 now;
+    glfwGetCursorPos(window_.native_handle(), &now.x, &now.y);
+    const Vec2 before = mouse_px_;
+    mouse_px_ = now;
+    return captured_ ? Vec2{now.x - before.x, now.y - before.y} : Vec2();
 }
 
 bool WindowInput::is_held(int key) const {
@@ -27,6 +56,7 @@ void WindowInput::capture_mouse(bool captured) {
     captured_ = captured;
     glfwSetInputMode(window_.native_handle(), GLFW_CURSOR,
                      captured ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
+    glfwGetCursorPos(window_.native_handle(), &mouse_px_.x, &mouse_px_.y);
 }
 
 }  // namespace game

@@ -1,16 +1,18 @@
-// Keys of a window that were pressed since the last look, however short: a slow frame misses none.
+// Keys and buttons of a window that were pressed since the last look, however short: a slow frame misses
+// none.
 #pragma once
 
 #include <set>
 
+#include "vectors.h"
 #include "window.h"
 
 namespace game {
 
 class WindowInput {
   public:
-    // Listens to the window's keys; make it before other listeners, which pass keys on to it. Holds the
-    // window's user pointer.
+    // Listens to the window's keys and mouse; make it before other listeners, which pass on what they get.
+    // Holds the window's user pointer.
     explicit WindowInput(Window& window);
     ~WindowInput();
     WindowInput(const WindowInput&) = delete;
@@ -20,7 +22,13 @@ class WindowInput {
     bool is_held(int key) const;
     // Whether `key` went down since the last forget().
     bool was_pressed(int key) const { return pressed_.contains(key); }
-    void forget() { pressed_.clear(); }
+    // Whether mouse button `button` (GLFW_MOUSE_BUTTON_*) went down since the last forget().
+    bool was_clicked(int button) const { return clicked_.contains(button); }
+    // Of the wheel since the last forget(); positive: away from the hand.
+    double wheel_steps() const { return wheel_steps_; }
+    // The way of the mouse since the last call, pixels to the right and down, while it was captured.
+    Vec2 take_mouse_way();
+    void forget();
 
     // Hides the mouse pointer and lets it move without end, or gives it back.
     void capture_mouse(bool captured);
@@ -28,6 +36,9 @@ class WindowInput {
   private:
     Window& window_;
     std::set<int> pressed_;
+    std::set<int> clicked_;
+    double wheel_steps_ = 0.0;
+    Vec2 mouse_px_;  // at the last take_mouse_way()
     bool captured_ = false;
 };
 

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <system_error>
 #include <utility>
 
 #include "api/guard.h"
 #include "api/scene_state.h"
+#include "core/data_files.h"
 #include "image_io/image_io.h"
 #include "scene/gltf_import.h"
 
@@ -83,6 +85,16 @@ Scene::Scene(std::shared_ptr<SceneState> state) : state_(std::move(state)) {}
 Scene::Scene(Scene&& other) noexcept = default;
 Scene& Scene::operator=(Scene&& other) noexcept = default;
 Scene::~Scene() = default;
+
+std::filesystem::path Scene::find_file(const std::filesystem::path& scene) {
+    std::error_code ignored;
+    if (std::filesystem::exists(scene, ignored) || scene.has_parent_path() || scene.has_extension())
+        return scene;
+    constexpr DataFolder CONTENT = {"content", "TARN_CONTENT_DIR", TARN_CONTENT_DIR};
+    if (const auto own = find_data_file(CONTENT, scene.string() + ".glb")) return *own;
+    throw Error(fmt::format("scene '{}' is neither a file nor a scene of Tarn's own: {}", scene.string(),
+                            describe_data_places(CONTENT)));
+}
 
 Scene Scene::load(const std::filesystem::path& file, const SceneOptions& options) {
     return guard([&] {

@@ -147,6 +147,9 @@ TEST(LibraryErrors, AreOneLineThatNamesWhatIsWrong) {
     expect(error_of([&] { settings.set("colour", "red"); }), "no setting 'colour'");
     expect(error_of([&] { tarn::Settings::preset("best"); }), "'best' is none of");
     expect(error_of([&] { tarn::Scene::load(folder.file("gone.glb")); }), "gone.glb");
+    EXPECT_EQ(tarn::Scene::find_file("cornell"), CORNELL);
+    EXPECT_EQ(tarn::Scene::find_file(folder.file("gone.glb")), folder.file("gone.glb"));
+    expect(error_of([&] { tarn::Scene::find_file("nowhere"); }), "TARN_CONTENT_DIR");
     tarn::Scene scene = tarn::Scene::load(write_floor(folder));
     expect(error_of([&] { scene.camera("main"); }), "camera 'main': the scene has none");
     expect(error_of([&] { scene.find_node("nobody"); }), "no node 'nobody'");

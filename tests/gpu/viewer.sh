@@ -11,47 +11,10 @@ fi
 tarn=$1
 scene=$2
 folder=$3
-patience_s=60
 picture=300x300+340+30  # beside the panel
 panel=300x200+10+10
-viewer=
+source "$(dirname "${BASH_SOURCE[0]}")/window_steps.sh"
 
-fail() {
-    echo "FAILED: $*" >&2
-    [[ -f $folder/log.txt ]] && sed 's/^/  viewer: /' "$folder/log.txt" >&2
-    exit 1
-}
-end_viewer() { [[ -z $viewer ]] || kill "$viewer" 2>/dev/null || true; }
-trap end_viewer EXIT
-
-# Runs a command until it succeeds; fails when the viewer has died or patience ends.
-wait_until() {
-    local end=$((SECONDS + patience_s))
-    until "$@"; do
-        kill -0 "$viewer" 2>/dev/null || fail "the viewer died while waiting for: $*"
-        ((SECONDS < end)) || fail "not within $patience_s s: $*"
-        sleep 0.05
-    done
-}
-# wait_for WHAT COMMAND...: the same, and says so.
-wait_for() {
-    local what=$1
-    shift
-    wait_until "$@" || fail "$what"
-    echo "ok: $what"
-}
-
-look() { import -window root "$folder/$1.png"; }
-# How much a part of the screen differs from an earlier look, 0 to 1 (root mean square).
-difference() {
-    compare -metric RMSE -extract "$2" "$folder/$1.png" "$folder/now.png" null: 2>&1 | sed 's/.*(\(.*\))/\1/' || true
-}
-differs() {
-    look now
-    awk -v d="$(difference "$1" "$2")" -v least="$3" 'BEGIN { exit !(d + 0 > least) }'
-}
-# The last frame on the screen, from the window's title.
-frame() { xdotool getwindowname "$window" | sed -n 's/.* frame=\([0-9]*\)$/\1/p'; }
 is_past() { (($(frame) > $1)); }
 is_still() {
     look before
@@ -65,7 +28,6 @@ shows_something() {
     awk -v d="$deviation" 'BEGIN { exit !(d > 0.03) }'
 }
 has_title() { xdotool search --name "^Tarn: .*$1" >/dev/null 2>&1; }
-is_file() { [[ -s $1 ]]; }
 
 # The numbers in it may have changed.
 panel_is_back() { ! differs before "$panel" 0.04; }
@@ -85,7 +47,6 @@ choose() {
     xdotool mousemove 60 "$(($1 + 19 + 17 * $2))" click 1
     wait_for "the choice '$3'" has_title "$3"
 }
-is_gone() { ! kill -0 "$viewer" 2>/dev/null; }
 
 rm -rf "$folder"
 mkdir -p "$folder"
@@ -133,15 +94,7 @@ xdotool key F5
 look window
 
 xdotool key Escape
-end=$((SECONDS + patience_s))
-until is_gone; do
-    ((SECONDS < end)) || fail "Escape does not end the viewer"
-    sleep 0.1
-done
-status=0
-wait "$viewer" || status=$?
-viewer=
-((status == 0)) || fail "the viewer ended with $status"
+expect_end "Escape"
 echo "ok: Escape ends it with 0"
 
 "$tarn" view "$scene" --size 320x180 --scale 1 --frames 3 --screenshot last.png >>log.txt 2>&1 ||

@@ -5,5 +5,12 @@ tarn_test(recent_timings LABEL unit LIBRARIES tarn_game)
 
 # The game stands on the engine's public surface alone.
 add_test(NAME tools.game COMMAND python3 ${PROJECT_SOURCE_DIR}/tests/tools/game_test.py ${CMAKE_CXX_COMPILER}
-         $<JOIN:$<TARGET_PROPERTY:tarn_game,INCLUDE_DIRECTORIES>,:>)
+         $<JOIN:$<TARGET_PROPERTY:tarn_game,INCLUDE_DIRECTORIES>,:>:$<JOIN:$<TARGET_PROPERTY:tarn_play,INCLUDE_DIRECTORIES>,:>)
 set_tests_properties(tools.game PROPERTIES LABELS unit TIMEOUT 60)
+
+# What happens in the sandbox.
+tarn_test(play_character LABEL unit LIBRARIES tarn_play)
+tarn_test(play_balls LABEL unit LIBRARIES tarn_play)
+tarn_test(simulation LABEL unit LIBRARIES tarn_play)
+tarn_test(replay_file LABEL unit LIBRARIES tarn_play)
+add_dependencies(test_simulation tarn_scenes)

@@ -73,6 +73,9 @@ struct SceneFacts {
 // need of it alive.
 class Scene {
   public:
+    // A file that is there as it is; else the file of one of the project's own scenes, such as lantern_court,
+    // which are looked for as docs/embedding.md says. Error where there is neither.
+    static std::filesystem::path find_file(const std::filesystem::path& scene);
     // Loads a .gltf or .glb file. Error that names the file and what is wrong with it.
     static Scene load(const std::filesystem::path& file, const SceneOptions& options = {});
 

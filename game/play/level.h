@@ -1,0 +1,39 @@
+// What the simulation knows of a scene: what is solid, where play starts, which lanterns there are.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "../tarn_names.h"
+
+namespace game {
+
+// A small lamp that stands still.
+struct Lantern {
+    Node node;
+    Vec3 position;         // its middle, world space
+    bool is_dead = false;  // until somebody lights it
+};
+
+struct Level {
+    // Solid triangles: nine numbers each, metres relative to `origin`.
+    std::vector<std::array<float, 9>> triangles;
+    Vec3 origin;  // world space; near the triangles, so that single precision keeps its digits
+    Box bounds;   // of the triangles, world space; empty without triangles
+    // Where the eye starts; it is dropped to the floor. Yaw and pitch as in FlyCamera.
+    Vec3 start_eye;
+    double start_yaw_rad = 0.0;
+    double start_pitch_rad = 0.0;
+    double half_height = 0.5;  // of the camera's image plane at 1 m
+    std::vector<Lantern> lanterns;
+};
+
+// Solid is what no animation moves and no texture cuts holes into, as into leaves. Play starts at the scene's
+// first camera. Every third of the lanterns that stand still is dead.
+Level make_level(const Scene& scene);
+
+// Of the solid triangles and the start: replays name the level that they were recorded in by it.
+std::uint64_t compute_hash(const Level& level);
+
+}  // namespace game

@@ -1,0 +1,53 @@
+#include "physics.h"
+
+namespace game {
+
+Physics::Physics(const Level& level)
+    : origin_(level.origin),
+      dispatcher_(&configuration_),
+      world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
+    broadphase_.getOverlappingPairCache()->setInternalGhostPairCallback(&ghost_pairs_);
+    world_.setGravity(btVector3(0.0f, btScalar(-GRAVITY_M_S2), 0.0f));
+    // Else the order of contacts, and with it the last bits, depends on what was there before.
+    world_.getDispatchInfo().m_deterministicOverlappingPairs = true;
+    // Else pushing out of a surface also speeds up: balls would bounce too high.
+    world_.getSolverInfo().m_splitImpulsePenetrationThreshold = 0.0f;
+    // How far a sweep may end inside of what it hits: by default four centimetres.
+    world_.getDispatchInfo().m_allowedCcdPenetration = 0.02f;
+    mesh_.preallocateVertices(int(3 * level.triangles.size()));
+    mesh_.preallocateIndices(int(3 * level.triangles.size()));
+    for (const std::array<float, 9>& t : level.triangles) {
+        mesh_.addTriangle(btVector3(t[0], t[1], t[2]), btVector3(t[3], t[4], t[5]),
+                          btVector3(t[6], t[7], t[8]));
+    }
+    if (level.triangles.empty()) return;
+    shape_ = std::make_unique<btBvhTriangleMeshShape>(&mesh_, true);
+    btRigidBody::btRigidBodyConstructionInfo info(0.0f, nullptr, shape_.get());
+    info.m_friction = 0.7f;
+    info.m_restitution = 1.0f;  // a contact has the product of both sides: the ball's own
+    body_ = std::make_unique<btRigidBody>(info);
+    world_.addRigidBody(body_.get(), GROUP_LEVEL, GROUP_BALL | GROUP_CHARACTER);
+}
+
+Physics::~Physics() {
+    if (body_) world_.removeRigidBody(body_.get());
+}
+
+btVector3 Physics::to_local(const Vec3& p) const {
+    return {btScalar(p.x - origin_.x), btScalar(p.y - origin_.y), btScalar(p.z - origin_.z)};
+}
+
+Vec3 Physics::to_world(const btVector3& p) const {
+    return {double(p.x()) + origin_.x, double(p.y()) + origin_.y, double(p.z()) + origin_.z};
+}
+
+bool Physics::is_surface_between(const btVector3& from, const btVector3& to) const {
+    if (from == to) return false;
+    btCollisionWorld::ClosestRayResultCallback way(from, to);
+    way.m_collisionFilterGroup = GROUP_BALL;
+    way.m_collisionFilterMask = GROUP_LEVEL;
+    world_.rayTest(from, to, way);
+    return way.hasHit();
+}
+
+}  // namespace game

@@ -1,0 +1,48 @@
+// Bullet's world with a level in it. For this folder alone: no other header shows Bullet.
+#pragma once
+
+#include <btBulletDynamicsCommon.h>
+
+#include <BulletCollision/CollisionDispatch/btGhostObject.h>
+
+#include <memory>
+
+#include "level.h"
+
+namespace game {
+
+// What collides with what.
+enum CollisionGroup : int { GROUP_LEVEL = 1, GROUP_BALL = 2, GROUP_CHARACTER = 4, GROUP_BODY = 8 };
+
+inline constexpr double GRAVITY_M_S2 = 9.81;
+
+// Positions are relative to the level's origin, metres.
+class Physics {
+  public:
+    explicit Physics(const Level& level);
+    ~Physics();
+    Physics(const Physics&) = delete;
+    Physics& operator=(const Physics&) = delete;
+
+    btDiscreteDynamicsWorld& world() { return world_; }
+
+    btVector3 to_local(const Vec3& point_ws) const;
+    Vec3 to_world(const btVector3& point) const;
+
+    // Whether a surface of the level lies between two points.
+    bool is_surface_between(const btVector3& from, const btVector3& to) const;
+
+  private:
+    Vec3 origin_;
+    btDefaultCollisionConfiguration configuration_;
+    btCollisionDispatcher dispatcher_;
+    btDbvtBroadphase broadphase_;
+    btGhostPairCallback ghost_pairs_;
+    btSequentialImpulseConstraintSolver solver_;
+    btDiscreteDynamicsWorld world_;
+    btTriangleMesh mesh_;
+    std::unique_ptr<btBvhTriangleMeshShape> shape_;
+    std::unique_ptr<btRigidBody> body_;
+};
+
+}  // namespace game

@@ -1,0 +1,195 @@
+#include "simulation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "../vectors.h"
+#include "balls.h"
+#include "character.h"
+#include "hash.h"
+#include "lantern_rules.h"
+#include "physics.h"
+
+namespace game {
+namespace {
+
+constexpr int SUBSTEPS = 4;  // a thrown ball moves by less than its radius in one
+constexpr double RADIANS_PER_PX = 0.0022;
+constexpr double HALF_TURN_RAD = 3.14159265358979323846;
+constexpr double STEEPEST_LOOK_RAD = 89.0 / 180.0 * HALF_TURN_RAD;
+constexpr double THROW_M_S = 9.0;
+constexpr double HAND_AHEAD_M = 0.5;
+constexpr double HAND_BELOW_EYE_M = 0.15;
+constexpr double FALL_LIMIT_M = 5.0;  // below the level: who falls farther starts again, balls are gone
+
+Vec3 look_direction(const PlayerState& player) {
+    return {-std::sin(player.yaw_rad) * std::cos(player.pitch_rad), std::sin(player.pitch_rad),
+            -std::cos(player.yaw_rad) * std::cos(player.pitch_rad)};
+}
+
+btVector3 to_bullet(const Vec3& direction) {
+    return {btScalar(direction.x), btScalar(direction.y), btScalar(direction.z)};
+}
+
+// How far a ball's middle gets from `from` towards `to`; 1: all the way.
+double sweep_ball(Physics& physics, const btVector3& from, const btVector3& to) {
+    const btSphereShape ball{btScalar(BALL_RADIUS_M)};
+    btCollisionWorld::ClosestConvexResultCallback hit(from, to);
+    hit.m_collisionFilterGroup = GROUP_BALL;
+    hit.m_collisionFilterMask = GROUP_LEVEL;
+    btTransform start = btTransform::getIdentity(), end = btTransform::getIdentity();
+    start.setOrigin(from);
+    end.setOrigin(to);
+    physics.world().convexSweepTest(&ball, start, end, hit);
+    return double(hit.m_closestHitFraction);
+}
+
+// The floor below the eye, or as far below it as feet are.
+btVector3 find_start(Physics& physics, const Level& level) {
+    const btVector3 eye = physics.to_local(level.start_eye);
+    const double depth_m = std::max(2.0, level.start_eye.y - level.bounds.lower.y + 1.0);
+    const btVector3 below = eye - btVector3(0.0f, btScalar(std::min(depth_m, 1e4)), 0.0f);
+    btCollisionWorld::ClosestRayResultCallback floor(eye, below);
+    floor.m_collisionFilterGroup = GROUP_CHARACTER;
+    floor.m_collisionFilterMask = GROUP_LEVEL;
+    physics.world().rayTest(eye, below, floor);
+    if (!floor.hasHit()) return eye - btVector3(0.0f, Character::HEIGHT_M, 0.0f);
+    return floor.m_hitPointWorld + btVector3(0.0f, 0.02f, 0.0f);
+}
+
+}  // namespace
+
+struct Simulation::Parts {
+    explicit Parts(const Level& level)
+        : physics(level),
+          lowest_m(level.triangles.empty() ? -1e6 : level.bounds.lower.y - level.origin.y - FALL_LIMIT_M),
+          start_feet(find_start(physics, level)),
+          start_yaw_rad(level.start_yaw_rad),
+          start_pitch_rad(std::clamp(level.start_pitch_rad, -STEEPEST_LOOK_RAD, STEEPEST_LOOK_RAD)),
+          character(physics, start_feet),
+          balls(physics, btScalar(lowest_m)),
+          lanterns(level.lanterns) {
+        restart();
+    }
+
+    void restart() {
+        character.teleport(start_feet);
+        balls.clear();
+        state = {};
+        state.player.yaw_rad = start_yaw_rad;
+        state.player.pitch_rad = start_pitch_rad;
+        lanterns.restart(state);
+        describe();
+    }
+
+    void look(const StepInput& input) {
+        PlayerState& player = state.player;
+        player.yaw_rad =
+            std::remainder(player.yaw_rad - input.look_right * RADIANS_PER_PX, 2.0 * HALF_TURN_RAD);
+        player.pitch_rad = std::clamp(player.pitch_rad - input.look_down * RADIANS_PER_PX, -STEEPEST_LOOK_RAD,
+                                      STEEPEST_LOOK_RAD);
+    }
+
+    WalkInput walk_input(const StepInput& input) const {
+        const double yaw = state.player.yaw_rad;
+        const Vec3 right = {std::cos(yaw), 0.0, -std::sin(yaw)};
+        const Vec3 forward = {-std::sin(yaw), 0.0, -std::cos(yaw)};
+        const Vec3 way = right * std::clamp(input.right, -1, 1) + forward * std::clamp(input.forward, -1, 1);
+        WalkInput walk;
+        walk.direction = to_bullet(way * (1.0 / std::max(1.0, length(way))));
+        walk.run = input.run;
+        walk.crouch = input.crouch;
+        walk.jump = input.jump;
+        return walk;
+    }
+
+    // From the hand, which is where no wall is between it and the eye.
+    void throw_ball() {
+        const PlayerState& player = state.player;
+        const Vec3 ahead = look_direction(player);
+        const btVector3 eye = physics.to_local(player.eye());
+        const btVector3 reach = to_bullet(ahead * HAND_AHEAD_M - Vec3{0.0, HAND_BELOW_EYE_M, 0.0});
+        const btVector3 hand = eye + reach * btScalar(sweep_ball(physics, eye, eye + reach));
+        balls.add(hand, to_bullet(ahead * THROW_M_S), state.next_color);
+        state.next_color = (state.next_color + 1) % PLAY_COLORS;
+    }
+
+    void move(const StepInput& input) {
+        WalkInput walk = walk_input(input);
+        constexpr auto DT_S = btScalar(STEP_S / SUBSTEPS);
+        for (int i = 0; i < SUBSTEPS; ++i) {
+            character.step(walk, DT_S);
+            physics.world().stepSimulation(DT_S, 0);
+            balls.hold();
+            walk.jump = false;
+        }
+        if (character.feet().y() < lowest_m) character.teleport(start_feet);
+    }
+
+    void describe() {
+        state.player.feet = physics.to_world(character.feet());
+        state.player.eye_height_m = double(character.eye_height_m());
+        state.player.is_on_ground = character.is_on_ground();
+        state.player.is_crouching = character.is_crouching();
+        balls.describe(state.balls);
+    }
+
+    Physics physics;
+    double lowest_m;  // relative to the level's origin
+    btVector3 start_feet;
+    double start_yaw_rad;
+    double start_pitch_rad;
+    Character character;
+    Balls balls;
+    LanternRules lanterns;
+    PlayState state;
+};
+
+Simulation::Simulation(const Level& level) : parts_(std::make_unique<Parts>(level)) {}
+Simulation::~Simulation() = default;
+
+void Simulation::step(const StepInput& input) {
+    if (input.restart) return parts_->restart();
+    parts_->look(input);
+    parts_->move(input);
+    ++parts_->state.step;
+    parts_->describe();
+    parts_->lanterns.step(input, look_direction(parts_->state.player), parts_->state);
+    if (input.throw_ball) {
+        parts_->throw_ball();
+        parts_->describe();
+    }
+}
+
+const PlayState& Simulation::state() const {
+    return parts_->state;
+}
+
+std::uint64_t compute_hash(const PlayState& state) {
+    Hash hash;
+    const auto add_point = [&](const Vec3& p) {
+        for (const double value : {p.x, p.y, p.z}) hash.add(value);
+    };
+    hash.add(state.step);
+    const PlayerState& player = state.player;
+    add_point(player.feet);
+    for (const double value : {player.eye_height_m, player.yaw_rad, player.pitch_rad}) hash.add(value);
+    hash.add(int(player.is_on_ground) + 2 * int(player.is_crouching));
+    for (const BallState& ball : state.balls) {
+        hash.add(int(ball.is_alive) + 2 * ball.color);
+        add_point(ball.position);
+        add_point(ball.velocity);
+        const Rotation& r = ball.rotation;
+        for (const double value : {r.x, r.y, r.z, r.w}) hash.add(value);
+    }
+    for (const LanternState& lantern : state.lanterns) {
+        hash.add(int(lantern.is_lit) + 2 * lantern.color);
+        hash.add(lantern.brightness);
+    }
+    for (const int value : {state.aimed_lantern, state.next_color, state.dead_count, state.relit_count})
+        hash.add(value);
+    hash.add(state.finished_step);
+    return hash.value();
+}
+
+}  // namespace game

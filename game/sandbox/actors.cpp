@@ -1,0 +1,97 @@
+#include "actors.h"
+
+#include "palette.h"
+
+namespace game {
+namespace {
+
+constexpr int BALL_SUBDIVISIONS = 1;  // 80 triangles, each of which is a light
+constexpr double PARKED_BELOW_M = 0.6;
+constexpr double PARKED_APART_M = 0.3;
+
+bool is_same_place(const BallState& a, const BallState& b) {
+    return a.position.x == b.position.x && a.position.y == b.position.y && a.position.z == b.position.z &&
+           a.rotation.x == b.rotation.x && a.rotation.y == b.rotation.y && a.rotation.z == b.rotation.z &&
+           a.rotation.w == b.rotation.w;
+}
+
+Surface ball_surface(const BallState& ball) {
+    const Vec3& radiance = PALETTE[std::size_t(ball.color)];
+    Surface surface;
+    surface.base_color = {0.4, 0.4, 0.4};
+    surface.roughness = 0.6;
+    if (ball.is_alive) surface.emission = radiance;
+    return surface;
+}
+
+// In a row below the middle of the level.
+Transform parking_place(const Level& level, int index) {
+    const Box& b = level.bounds;
+    const bool is_empty = b.lower.x > b.upper.x;
+    Transform place;
+    place.translation = is_empty ? level.start_eye - Vec3{0.0, 3.0, 0.0}
+                                 : Vec3{0.5 * (b.lower.x + b.upper.x), b.lower.y - PARKED_BELOW_M,
+                                        0.5 * (b.lower.z + b.upper.z)};
+    place.translation.x += PARKED_APART_M * (index - 0.5 * BALL_LIMIT);
+    return place;
+}
+
+Vec3 lantern_emission(const Vec3& own, const LanternState& lantern) {
+    if (!lantern.is_lit) return {};
+    if (lantern.color < 0) return own * lantern.brightness;
+    const Vec3& chosen = PALETTE[std::size_t(lantern.color)];
+    return chosen * (lantern.brightness * luminance(own) / luminance(chosen));
+}
+
+}  // namespace
+
+Actors::Actors(Scene& scene, const Level& level) : scene_(scene) {
+    for (int i = 0; i < BALL_LIMIT; ++i) {
+        Ball ball;
+        ball.parked = parking_place(level, i);
+        ball.node = scene.add_sphere(BALL_RADIUS_M, BALL_SUBDIVISIONS, ball_surface(ball.shown), ball.parked);
+        ball.material = scene.materials(ball.node).at(0);
+        balls_.push_back(ball);
+    }
+    for (const Lantern& lantern : level.lanterns) {
+        scene.separate_materials(lantern.node);
+        LanternActor actor;
+        for (const std::size_t material : scene.materials(lantern.node)) {
+            const Surface surface = scene.surface(material);
+            if (luminance(surface.emission) > 0.0) actor.parts.push_back({material, surface});
+        }
+        lanterns_.push_back(std::move(actor));
+    }
+}
+
+void Actors::show_ball(Ball& ball, const BallState& state) {
+    const bool moves =
+        state.is_alive ? !ball.shown.is_alive || !is_same_place(state, ball.shown) : ball.shown.is_alive;
+    if (moves && state.is_alive) {
+        scene_.set_transform(ball.node, {state.position, state.rotation});
+    } else if (moves) {
+        scene_.set_transform(ball.node, ball.parked);
+    }
+    if (state.is_alive != ball.shown.is_alive || state.color != ball.shown.color)
+        scene_.set_surface(ball.material, ball_surface(state));
+    ball.shown = state;
+}
+
+void Actors::show_lantern(LanternActor& lantern, const LanternState& state) {
+    const LanternState& shown = lantern.shown;
+    if (state.is_lit == shown.is_lit && state.color == shown.color && state.brightness == shown.brightness)
+        return;
+    for (const LanternPart& part : lantern.parts) {
+        Surface surface = part.surface;
+        surface.emission = lantern_emission(part.surface.emission, state);
+        scene_.set_surface(part.material, surface);
+    }
+    lantern.shown = state;
+}
+
+void Actors::show(const PlayState& state) {
+    for (std::size_t i = 0; i < balls_.size(); ++i) show_ball(balls_[i], state.balls[i]);
+    for (std::size_t i = 0; i < lanterns_.size(); ++i) show_lantern(lanterns_[i], state.lanterns[i]);
+}
+
+}  // namespace game

@@ -1,0 +1,44 @@
+// The scene's part in the play: balls and lanterns, as the simulation says where and how bright they are.
+#pragma once
+
+#include <vector>
+
+#include "../play/level.h"
+#include "../play/simulation.h"
+
+namespace game {
+
+class Actors {
+  public:
+    // Adds all balls, dark and out of sight, and gives each lantern materials of its own: before the first
+    // frame, since views begin anew after it. The scene must outlive this.
+    Actors(Scene& scene, const Level& level);
+
+    // Moves and switches what differs from the last call.
+    void show(const PlayState& state);
+
+  private:
+    struct Ball {
+        Node node;
+        std::size_t material = 0;
+        Transform parked;
+        BallState shown;
+    };
+    struct LanternPart {
+        std::size_t material = 0;
+        Surface surface;  // as the scene has it
+    };
+    struct LanternActor {
+        std::vector<LanternPart> parts;  // those that shine
+        LanternState shown;
+    };
+
+    void show_ball(Ball& ball, const BallState& state);
+    void show_lantern(LanternActor& lantern, const LanternState& state);
+
+    Scene& scene_;
+    std::vector<Ball> balls_;
+    std::vector<LanternActor> lanterns_;
+};
+
+}  // namespace game

@@ -1,0 +1,84 @@
+#include "controls.h"
+
+#include <cmath>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+namespace game {
+namespace {
+
+// The whole part; what is left waits for the next call.
+int take_whole(double& value) {
+    const double whole = std::trunc(value);
+    value -= whole;
+    return int(whole);
+}
+
+}  // namespace
+
+void ControlReader::capture_mouse(bool captured) {
+    has_mouse_ = captured;
+    input_.capture_mouse(captured);
+}
+
+void ControlReader::read_play(StepInput& play) {
+    const auto axis = [&](int positive, int negative) {
+        return int(input_.is_held(positive)) - int(input_.is_held(negative));
+    };
+    play.right = axis(GLFW_KEY_D, GLFW_KEY_A);
+    play.forward = axis(GLFW_KEY_W, GLFW_KEY_S);
+    play.run = input_.is_held(GLFW_KEY_LEFT_SHIFT) || input_.is_held(GLFW_KEY_RIGHT_SHIFT);
+    play.crouch = input_.is_held(GLFW_KEY_C) || input_.is_held(GLFW_KEY_LEFT_CONTROL);
+    play.jump = input_.was_pressed(GLFW_KEY_SPACE);
+    play.throw_ball = input_.was_clicked(GLFW_MOUSE_BUTTON_LEFT);
+    play.use = input_.was_pressed(GLFW_KEY_E);
+    play.restart = input_.was_pressed(GLFW_KEY_R);
+    const Vec2 way = input_.take_mouse_way();
+    rest_px_ = {rest_px_.x + way.x, rest_px_.y + way.y};
+    rest_steps_ += input_.wheel_steps();
+    play.look_right = take_whole(rest_px_.x);
+    play.look_down = take_whole(rest_px_.y);
+    play.wheel = take_whole(rest_steps_);
+}
+
+Controls ControlReader::read() {
+    Controls controls;
+    controls.leave = input_.was_pressed(GLFW_KEY_ESCAPE);
+    controls.help = input_.was_pressed(GLFW_KEY_F1);
+    controls.panel = input_.was_pressed(GLFW_KEY_F2);
+    controls.fullscreen = input_.was_pressed(GLFW_KEY_F11);
+    controls.screenshot = input_.was_pressed(GLFW_KEY_F12);
+    if (has_mouse_) {
+        read_play(controls.play);
+    } else {
+        controls.click = input_.was_clicked(GLFW_MOUSE_BUTTON_LEFT);
+        rest_px_ = {};
+        rest_steps_ = 0.0;
+    }
+    input_.forget();
+    return controls;
+}
+
+StepInput without_presses(const StepInput& input) {
+    StepInput held;
+    held.right = input.right;
+    held.forward = input.forward;
+    held.run = input.run;
+    held.crouch = input.crouch;
+    return held;
+}
+
+StepInput with_presses(const StepInput& input, const StepInput& earlier) {
+    StepInput both = input;
+    both.jump = input.jump || earlier.jump;
+    both.throw_ball = input.throw_ball || earlier.throw_ball;
+    both.use = input.use != earlier.use;  // twice is back again
+    both.restart = input.restart || earlier.restart;
+    both.look_right += earlier.look_right;
+    both.look_down += earlier.look_down;
+    both.wheel += earlier.wheel;
+    return both;
+}
+
+}  // namespace game

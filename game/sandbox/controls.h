@@ -1,0 +1,45 @@
+// Keys and mouse as the sandbox understands them.
+#pragma once
+
+#include "../play/step_input.h"
+#include "../window_input.h"
+
+namespace game {
+
+// What a person did since the last frame.
+struct Controls {
+    StepInput play;           // with all that was pressed since then; only while the mouse is captured
+    bool leave = false;       // Escape
+    bool click = false;       // the left button, while the mouse is free
+    bool help = false;        // F1
+    bool panel = false;       // F2
+    bool fullscreen = false;  // F11
+    bool screenshot = false;  // F12
+};
+
+class ControlReader {
+  public:
+    // Hears the window's keys before widgets do.
+    explicit ControlReader(Window& window) : input_(window) {}
+
+    // Call after Window::poll_events().
+    Controls read();
+    // Hides the mouse pointer, so that the mouse turns the head, or gives it back.
+    void capture_mouse(bool captured);
+    bool has_mouse() const { return has_mouse_; }
+
+  private:
+    void read_play(StepInput& play);
+
+    WindowInput input_;
+    bool has_mouse_ = false;
+    Vec2 rest_px_;  // of the mouse's way: less than a pixel
+    double rest_steps_ = 0.0;
+};
+
+// Of one frame's input: what the first step of the frame gets is in it; further ones get only what is held.
+StepInput without_presses(const StepInput& input);
+// What was pressed in `earlier`, and not yet used by any step, added to `input`.
+StepInput with_presses(const StepInput& input, const StepInput& earlier);
+
+}  // namespace game

@@ -1,0 +1,133 @@
+// tarn-sandbox: plays in a scene, records what is done there, and plays it again. Exit status: 0; 1 with one
+// line on stderr where a file, a driver or a disk fails; 2 for wrong usage.
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+
+#include "replay_player.h"
+#include "sandbox.h"
+
+namespace game {
+namespace {
+
+constexpr int WRONG_USAGE = 2;
+
+std::atomic<bool> is_interrupted{false};
+
+struct Options {
+    std::string scene = "lantern_court";
+    std::string preset = "clean";
+    double scale = 0.5;
+    std::string size = "960x540";
+    std::uint32_t seed = 0;
+    int threads = 0;
+    std::string record;
+    std::string replay;
+    bool headless = false;
+    std::string folder;
+    int every = 1;
+};
+
+Size parse_size(const std::string& text) {
+    Size size;
+    int used = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%n", &size.width_px, &size.height_px, &used) != 2 ||
+        std::size_t(used) != text.size() || size.width_px < 1 || size.height_px < 1 ||
+        size.width_px > 16384 || size.height_px > 16384) {
+        throw CLI::ValidationError("--size", "'" + text + "' is no size such as 960x540");
+    }
+    return size;
+}
+
+Scene load_scene(const std::string& name) {
+    return Scene::load(Scene::find_file(name));
+}
+
+void play(const Options& options) {
+    SandboxOptions sandbox;
+    sandbox.scene_name = options.scene;
+    sandbox.settings = Settings::preset(options.preset);
+    sandbox.settings.set_number("scale", options.scale);
+    sandbox.preset = options.preset;
+    sandbox.seed = options.seed;
+    sandbox.threads = options.threads;
+    sandbox.record = options.record;
+    sandbox.stop = [] { return is_interrupted.load(); };
+    Scene scene = load_scene(options.scene);
+    const Size size = parse_size(options.size);
+    Window window({"Tarn sandbox", size.width_px, size.height_px, options.threads});
+    Sandbox(window, std::move(scene), sandbox).run();
+}
+
+void replay(const Options& options) {
+    const Replay recorded = load_replay(options.replay);
+    ReplayOptions how;
+    how.file = options.replay;
+    how.folder = options.folder;
+    how.every = options.every;
+    how.threads = options.threads;
+    how.stop = [] { return is_interrupted.load(); };
+    make_look(recorded, how.file);
+    Stage stage(load_scene(recorded.scene));
+    if (options.headless) return play_replay(stage, recorded, how, nullptr);
+    Window window({"Tarn sandbox: replay", recorded.width_px, recorded.height_px, options.threads});
+    play_replay(stage, recorded, how, &window);
+}
+
+void add_options(CLI::App& app, Options& options) {
+    app.add_option("SCENE", options.scene, "A .gltf or .glb file, or the name of one of Tarn's scenes")
+        ->capture_default_str();
+    app.add_option("--preset", options.preset, "How light is computed: a name of 'tarn render --help'")
+        ->capture_default_str();
+    app.add_option("--scale", options.scale, "Width and height of what is rendered, relative to the window")
+        ->check(CLI::Range(0.25, 1.0))
+        ->capture_default_str();
+    app.add_option("--size", options.size, "Size of the window, px")->capture_default_str();
+    app.add_option("--seed", options.seed, "Seed of all random numbers")->capture_default_str();
+    app.add_option("--threads", options.threads, "Worker threads (0: one per core)")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
+    CLI::Option* record = app.add_option("--record", options.record, "Write what is done to this file");
+    CLI::Option* replay =
+        app.add_option("--replay", options.replay, "Do what this file says")->excludes(record);
+    CLI::Option* folder =
+        app.add_option("--out", options.folder, "Write the replay's frames as PNG files to this folder");
+    app.add_flag("--headless", options.headless, "Without a window")->needs(replay)->needs(folder);
+    folder->needs(replay);
+    app.add_option("--every", options.every, "Of the replay's steps, 60 a second, draw every so many")
+        ->needs(replay)
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+}
+
+int run(int argc, char** argv) {
+    CLI::App app{"Walk through a scene at night, throw glowing balls, relight dead lanterns."};
+    app.footer(
+        "W A S D walk, Shift runs, Space jumps, C crouches; the mouse looks, its left button throws a ball.\n"
+        "E: light a lantern. F1: all keys. F2: panel. F12: screenshot. Escape: free the mouse, then quit.");
+    Options options;
+    add_options(app, options);
+    try {
+        app.parse(argc, argv);
+        parse_size(options.size);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : WRONG_USAGE;
+    }
+    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { is_interrupted = true; });
+    options.replay.empty() ? play(options) : replay(options);
+    return 0;
+}
+
+}  // namespace
+}  // namespace game
+
+int main(int argc, char** argv) {
+    try {
+        return game::run(argc, argv);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "tarn-sandbox: %s\n", error.what());
+        return 1;
+    }
+}

@@ -1,0 +1,80 @@
+#include "replay_player.h"
+
+#include <fmt/format.h>
+
+#include <system_error>
+
+namespace game {
+namespace {
+
+Engine open_engine(const Window* window, int threads) {
+    EngineOptions options;
+    if (window != nullptr) options.gl_loader = window->gl_loader();
+    options.threads = threads;
+    return Engine(options);
+}
+
+void make_folder(const std::filesystem::path& folder) {
+    std::error_code failure;
+    if (!folder.empty()) std::filesystem::create_directories(folder, failure);
+    if (failure)
+        throw Error(fmt::format("{}: the folder cannot be made: {}", folder.string(), failure.message()));
+}
+
+// False once the user has closed the window.
+bool present(View& view, Window& window) {
+    window.poll_events();
+    const Size size = window.framebuffer_size();
+    if (size.width_px > 0 && size.height_px > 0) view.present(size.width_px, size.height_px);
+    window.swap();
+    return !window.should_close();
+}
+
+void check_end(const Stage& stage, const Replay& replay, const std::filesystem::path& file) {
+    const std::uint64_t hash = compute_hash(stage.state());
+    if (hash == replay.state_hash) return;
+    throw Error(fmt::format("{}: the play ended in the state {:016x}, recorded was {:016x}", file.string(),
+                            hash, replay.state_hash));
+}
+
+}  // namespace
+
+StageLook make_look(const Replay& replay, const std::filesystem::path& file) {
+    StageLook look;
+    look.seed = replay.seed;
+    try {
+        for (const auto& [name, value] : replay.settings) look.settings.set(name, value);
+    } catch (const Error& error) {
+        throw Error(fmt::format("{}: {}", file.string(), error.what()));
+    }
+    return look;
+}
+
+void play_replay(Stage& stage, const Replay& replay, const ReplayOptions& options, Window* window) {
+    const StageLook look = make_look(replay, options.file);
+    if (stage.level_hash() != replay.level_hash) {
+        throw Error(fmt::format("{}: recorded in the level {:016x}, the scene '{}' has {:016x}",
+                                options.file.string(), replay.level_hash, replay.scene, stage.level_hash()));
+    }
+    make_folder(options.folder);
+    const Engine engine = open_engine(window, options.threads);
+    View view(engine, stage.scene(), replay.width_px, replay.height_px);
+    const std::size_t every = std::size_t(options.every);
+    std::uint32_t frame = 0;
+    for (std::size_t step = 0;; ++step) {
+        if (step % every == 0) {
+            if (options.stop && options.stop()) return;
+            stage.show();
+            view.draw(stage.make_frame(look, frame, STEP_S * options.every));
+            if (!options.folder.empty())
+                view.write_png(options.folder / fmt::format("frame_{:06}.png", frame));
+            if (window != nullptr && !present(view, *window)) return;
+            ++frame;
+        }
+        if (step == replay.steps.size()) break;
+        stage.step(replay.steps[step]);
+    }
+    check_end(stage, replay, options.file);
+}
+
+}  // namespace game

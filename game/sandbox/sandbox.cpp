@@ -1,0 +1,193 @@
+#include "sandbox.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+namespace game {
+namespace {
+
+constexpr double LONGEST_FRAME_S = 0.25;  // on a slower machine time goes slower, not farther a frame
+constexpr auto RESIZE_DELAY = std::chrono::milliseconds(250);
+constexpr auto MESSAGE_TIME = std::chrono::seconds(5);
+
+Engine open_window_engine(const Window& window, int threads) {
+    EngineOptions options;
+    options.gl_loader = window.gl_loader();
+    options.threads = threads;
+    return Engine(options);
+}
+
+std::filesystem::path find_new_picture() {
+    const std::filesystem::path folder = "out";
+    std::error_code failure;
+    std::filesystem::create_directories(folder, failure);
+    if (failure)
+        throw Error(fmt::format("{}: the folder cannot be made: {}", folder.string(), failure.message()));
+    for (int i = 1;; ++i) {
+        const std::filesystem::path file = folder / fmt::format("sandbox_{:04}.png", i);
+        if (!std::filesystem::exists(file)) return file;
+    }
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+Sandbox::Sandbox(Window& window, Scene scene, const SandboxOptions& options)
+    : options_(options),
+      window_(window),
+      engine_(open_window_engine(window, options.threads)),
+      stage_(std::move(scene)),
+      controls_(window),
+      widgets_(window) {
+    look_.settings = options.settings;
+    look_.preset = options.preset;
+    facts_.shows_help = true;
+    const Size size = window.framebuffer_size();
+    record_.scene = options.scene_name;
+    record_.level_hash = stage_.level_hash();
+    record_.width_px = std::max(1, size.width_px);
+    record_.height_px = std::max(1, size.height_px);
+    record_.seed = options.seed;
+    for (const SettingInfo& row : Settings::list())
+        record_.settings.emplace_back(row.name, options.settings.get(row.name));
+    window_.set_vsync(true);
+    controls_.capture_mouse(true);
+}
+
+void Sandbox::run() {
+    Clock::time_point last = Clock::now();
+    while (!window_.should_close() && !(options_.stop && options_.stop())) {
+        window_.poll_events();
+        const double dt_s = seconds_since(last);
+        last = Clock::now();
+        if (window_.is_minimized()) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+            continue;
+        }
+        follow_window_size();
+        show_frame(dt_s);
+    }
+    if (!options_.record.empty()) write_record();
+}
+
+void Sandbox::follow_window_size() {
+    const Size size = window_.framebuffer_size();
+    if (size != wanted_size_) {
+        wanted_size_ = size;
+        wanted_since_ = Clock::now();
+    }
+    const bool fits = view_ && size == Size{view_->width_px(), view_->height_px()};
+    // While the user drags the border the size changes with every frame.
+    if (fits || (view_ && Clock::now() - wanted_since_ < RESIZE_DELAY)) return;
+    view_ = std::make_unique<View>(engine_, stage_.scene(), std::max(1, size.width_px),
+                                   std::max(1, size.height_px));
+    timings_.clear();
+}
+
+void Sandbox::show_frame(double dt_s) {
+    widgets_.begin();
+    const Controls controls = controls_.read();
+    handle_controls(controls);
+    play(controls, dt_s);
+    draw(dt_s);
+    draw_sandbox_panel(look_, facts_, stage_.state());
+    const Size size = window_.framebuffer_size();
+    view_->present(size.width_px, size.height_px);
+    widgets_.end();
+    window_.swap();
+    update_title();
+    ++frame_;
+}
+
+void Sandbox::handle_controls(const Controls& controls) {
+    if (controls.leave && !controls_.has_mouse()) window_.request_close();
+    const bool had_focus = std::exchange(has_focus_, window_.has_focus());
+    if (controls.leave || (had_focus && !has_focus_)) controls_.capture_mouse(false);
+    if (controls.panel) {
+        facts_.shows_panel = !facts_.shows_panel;
+        controls_.capture_mouse(!facts_.shows_panel);
+    }
+    // A click beside the panel goes on with the game.
+    if (controls.click && !widgets_.wants_mouse()) controls_.capture_mouse(true);
+    if (controls.help) facts_.shows_help = !facts_.shows_help;
+    const bool begins = controls.play.forward != 0 || controls.play.right != 0;
+    if (begins && stage_.state().step < 2 * STEPS_PER_S) facts_.shows_help = false;
+    if (controls.fullscreen) window_.set_fullscreen(!window_.is_fullscreen());
+    if (controls.screenshot) save_screenshot();
+    facts_.has_mouse = controls_.has_mouse();
+}
+
+void Sandbox::step(const StepInput& input) {
+    stage_.step(input);
+    if (!options_.record.empty()) record_.steps.push_back(input);
+}
+
+void Sandbox::play(const Controls& controls, double dt_s) {
+    const Clock::time_point start = Clock::now();
+    waiting_ = with_presses(controls.play, waiting_);
+    if (controls_.has_mouse()) {
+        behind_s_ += std::min(dt_s, LONGEST_FRAME_S);
+    } else {
+        behind_s_ = 0.0;
+        waiting_ = {};
+    }
+    for (; behind_s_ >= STEP_S; behind_s_ -= STEP_S) step(std::exchange(waiting_, without_presses(waiting_)));
+    facts_.step_ms = 1e3 * seconds_since(start);
+    stage_.show();
+}
+
+void Sandbox::draw(double dt_s) {
+    const StageLook look = {look_.settings, options_.seed, look_.glare_strength};
+    facts_.report = view_->draw(stage_.make_frame(look, frame_, dt_s));
+    timings_.add(facts_.report);
+    facts_.cost = timings_.compute_medians();
+    // The first frame has none before it.
+    if (frame_ > 0) loop_s_ = loop_s_ == 0.0 ? dt_s : 0.9 * loop_s_ + 0.1 * dt_s;
+    facts_.frames_per_s = loop_s_ > 0.0 ? 1.0 / loop_s_ : 0.0;
+    facts_.width_px = view_->width_px();
+    facts_.height_px = view_->height_px();
+    if (Clock::now() - reported_at_ > MESSAGE_TIME) facts_.message.clear();
+}
+
+// For people, and for tests that look at it.
+void Sandbox::update_title() {
+    const PlayState& state = stage_.state();
+    const Vec3& feet = state.player.feet;
+    const auto balls = std::count_if(state.balls.begin(), state.balls.end(),
+                                     [](const BallState& ball) { return ball.is_alive; });
+    window_.set_title(fmt::format(
+        "Tarn sandbox: {} {}x{} x={:.2f} y={:.2f} z={:.2f} balls={} lit={}/{} {} step={} frame={}",
+        options_.scene_name, facts_.width_px, facts_.height_px, feet.x, feet.y, feet.z, balls,
+        state.relit_count, state.dead_count, facts_.has_mouse ? "playing" : "paused", state.step, frame_));
+}
+
+void Sandbox::save_screenshot() {
+    if (frame_ == 0) return;
+    try {
+        const std::filesystem::path file = find_new_picture();
+        view_->write_png(file);
+        report("wrote " + file.string());
+    } catch (const Error& error) {
+        report(error.what());
+    }
+}
+
+void Sandbox::report(const std::string& message) {
+    facts_.message = message;
+    reported_at_ = Clock::now();
+}
+
+void Sandbox::write_record() const {
+    Replay record = record_;
+    record.state_hash = compute_hash(stage_.state());
+    save_replay(options_.record, record);
+}
+
+}  // namespace game

@@ -1,0 +1,74 @@
+// The sandbox in a window: a person plays, and what they do may be recorded.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "../play/replay_file.h"
+#include "../recent_timings.h"
+#include "../widgets.h"
+#include "controls.h"
+#include "sandbox_panel.h"
+#include "stage.h"
+
+namespace game {
+
+struct SandboxOptions {
+    std::string scene_name;  // as the user gave it
+    Settings settings;
+    std::string preset;
+    std::uint32_t seed = 0;
+    int threads = 0;               // as for EngineOptions
+    std::filesystem::path record;  // written when it ends; empty: nothing
+    std::function<bool()> stop;    // asked before each frame; true: quit. Empty: never
+};
+
+class Sandbox {
+  public:
+    // Draws in the window, which must outlive it. Error where its OpenGL does not do.
+    Sandbox(Window& window, Scene scene, const SandboxOptions& options);
+
+    // Until the user quits. Error where the record cannot be written.
+    void run();
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    void follow_window_size();
+    void show_frame(double dt_s);
+    void handle_controls(const Controls& controls);
+    void play(const Controls& controls, double dt_s);
+    void step(const StepInput& input);
+    void draw(double dt_s);
+    void update_title();
+    void save_screenshot();
+    void report(const std::string& message);
+    void write_record() const;
+
+    SandboxOptions options_;
+    Window& window_;
+    Engine engine_;
+    Stage stage_;
+    ControlReader controls_;  // before the widgets, which pass on what they get
+    Widgets widgets_;
+    std::unique_ptr<View> view_;
+
+    SandboxSettings look_;
+    SandboxFacts facts_;
+    RecentTimings timings_;
+    Replay record_;
+    StepInput waiting_;      // pressed, and no step has come since
+    double behind_s_ = 0.0;  // of the simulation
+    double loop_s_ = 0.0;    // from frame to frame, smoothed
+    std::uint32_t frame_ = 0;
+    bool has_focus_ = false;
+    Size wanted_size_;  // and since when
+    Clock::time_point wanted_since_;
+    Clock::time_point reported_at_;
+};
+
+}  // namespace game

@@ -1,0 +1,47 @@
+// A scene that is played in: what the window, replays and tests have in common.
+#pragma once
+
+#include <cstdint>
+
+#include "../play/simulation.h"
+#include "actors.h"
+
+namespace game {
+
+// How the stage is drawn.
+struct StageLook {
+    Settings settings;
+    std::uint32_t seed = 0;
+    double glare_strength = 1.0;
+};
+
+class Stage {
+  public:
+    // Adds what play needs to the scene; views come later.
+    explicit Stage(Scene scene);
+    // Actors hold the scene.
+    Stage(const Stage&) = delete;
+    Stage& operator=(const Stage&) = delete;
+
+    // Goes on by one step.
+    void step(const StepInput& input) { simulation_.step(input); }
+    // Brings the scene to where the simulation is.
+    void show();
+    // What the player sees, as frame `number` of a view, `elapsed_s` after the one before.
+    Frame make_frame(const StageLook& look, std::uint32_t number, double elapsed_s) const;
+
+    const Scene& scene() const { return scene_; }
+    const PlayState& state() const { return simulation_.state(); }
+    std::uint64_t level_hash() const { return level_hash_; }
+    std::size_t solid_triangles() const { return level_.triangles.size(); }
+
+  private:
+    Scene scene_;
+    Level level_;
+    std::uint64_t level_hash_;
+    Simulation simulation_;
+    Actors actors_;
+    bool is_animated_;
+};
+
+}  // namespace game

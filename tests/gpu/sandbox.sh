@@ -1,0 +1,107 @@
+#!/usr/bin/env bash
+# sandbox.sh TARN_SANDBOX FOLDER: plays in the lantern court, in a real window with keys and mouse. Waits for what it
+# expects, never for a time, so that a slow machine passes too. Pictures stay in FOLDER.
+set -euo pipefail
+
+if [[ -n ${TARN_SKIP_VIEWER:-} ]]; then
+    echo "skipped: $TARN_SKIP_VIEWER"
+    exit 77
+fi
+
+sandbox=$1
+folder=$2
+picture=320x180+0+0
+source "$(dirname "${BASH_SOURCE[0]}")/window_steps.sh"
+
+title() { xdotool getwindowname "$window"; }
+has_title() { [[ $(title) == *" $1 "* ]]; }
+# number NAME: x, y, z, balls or step, as the title has it.
+number() { title | sed -n "s/.* $1=\([-0-9.]*\) .*/\1/p"; }
+# In metres, along the floor, from the place at "$1 $2".
+distance() { awk -v x="$(number x)" -v z="$(number z)" -v a="$1" -v b="$2" 'BEGIN { print sqrt((x-a)^2 + (z-b)^2) }'; }
+has_gone() { awk -v d="$(distance "$1" "$2")" -v least="$3" 'BEGIN { exit !(d > least) }'; }
+# Whether it walks no farther, while the key is down: over 30 steps less than a hand's breadth.
+is_stopped() {
+    local x z step
+    x=$(number x) z=$(number z) step=$(number step)
+    wait_until has_stepped "$((step + 30))"
+    ! has_gone "$x" "$z" 0.1
+}
+has_stepped() { (($(number step) > $1)); }
+is_in_court() {
+    awk -v x="$(number x)" -v y="$(number y)" -v z="$(number z)" \
+        'BEGIN { exit !(x > -18.8 && x < 18.8 && z > -15.8 && z < 15.8 && y > -0.2 && y < 5) }'
+}
+exists() { window=$(xdotool search --name '^Tarn sandbox: .* playing ' 2>/dev/null | head -n 1) && [[ -n $window ]]; }
+fails_with() {
+    local text=$1 status=0
+    shift
+    "$@" >said.txt 2>&1 || status=$?
+    ((status == 1)) && [[ $(wc -l <said.txt) == 1 ]] && grep -qF -- "$text" said.txt ||
+        fail "status $status instead of 1 and one line with '$text': $(cat said.txt)"
+    echo "ok: $text"
+}
+
+rm -rf "$folder"
+mkdir -p "$folder"
+cd "$folder"
+
+"$sandbox" --size 320x180 --record run.replay >log.txt 2>&1 &
+viewer=$!
+wait_for "a window, playing" exists
+wait_for "steps pass" has_stepped 20
+look start
+
+x=$(number x) z=$(number z)
+xdotool keydown w
+wait_for "W walks" has_gone "$x" "$z" 1
+xdotool keydown shift
+wait_for "a wall, a stall or the fountain stops who runs" is_stopped
+is_in_court || fail "it is outside: $(title)"
+xdotool keyup shift keyup w
+look before
+xdotool mousemove_relative -- 150 -20
+wait_for "the mouse turns the head" differs before "$picture" 0.03
+
+xdotool click 1
+wait_for "a ball flies" has_title "balls=1"
+xdotool click 1
+wait_for "and another" has_title "balls=2"
+xdotool key F12
+wait_for "F12 writes a picture" is_file out/sandbox_0001.png
+[[ $(identify -format '%wx%h' out/sandbox_0001.png) == 320x180 ]] || fail "the screenshot has another size"
+
+look before
+xdotool key F2
+wait_for "F2 shows the panel and frees the mouse" has_title paused
+wait_for "the panel is there" differs before 140x150+175+10 0.05
+look panel
+xdotool key F2
+wait_for "F2 goes on" has_title playing
+xdotool key r
+wait_for "R starts again" has_title "balls=0"
+
+xdotool key Escape
+wait_for "Escape frees the mouse" has_title paused
+xdotool mousemove 100 100 click 1
+wait_for "a click goes on" has_title playing
+xdotool key Escape
+wait_for "Escape frees it again" has_title paused
+steps=$(number step)
+((steps > 0)) || fail "no steps"
+xdotool key Escape
+expect_end "the second Escape"
+echo "ok: the second Escape ends it with 0"
+
+is_file run.replay || fail "there is no record"
+"$sandbox" --replay run.replay --headless --every 60 --out headless >>log.txt 2>&1 || fail "headless: $(tail -n 1 log.txt)"
+"$sandbox" --replay run.replay --every 60 --out windowed >>log.txt 2>&1 || fail "windowed: $(tail -n 1 log.txt)"
+(($(ls headless | wc -l) > 3)) || fail "there are $(ls headless | wc -l) pictures"
+diff -r headless windowed || fail "a window and none show different pictures"
+echo "ok: the replay has the same pictures in a window and without one"
+
+head -c 300 run.replay >cut.replay
+fails_with "cut.replay: line" "$sandbox" --replay cut.replay --headless --out cut
+fails_with "nowhere.replay: the replay cannot be read" "$sandbox" --replay nowhere.replay --headless --out cut
+fails_with "scene 'nowhere'" "$sandbox" nowhere
+fails_with "no display" env -u DISPLAY -u WAYLAND_DISPLAY "$sandbox"

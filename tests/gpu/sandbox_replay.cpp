@@ -1,0 +1,110 @@
+// tarn-sandbox --replay --headless: the same pictures on every run, and one line for what is broken.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "game/play/replay_file.h"
+#include "game/play/simulation.h"
+#include "support/play_levels.h"
+#include "support/process.h"
+
+namespace {
+
+using game::Replay;
+using game::Simulation;
+using tarn::test::ProcessResult;
+using tarn::test::read_text;
+using tarn::test::run_process;
+using tarn::test::TemporaryFolder;
+
+const std::string COURT = TARN_BUILD_DIR "/content/lantern_court.glb";
+constexpr int STEPS = 96;
+constexpr int EVERY = 8;
+
+// Walks, turns and throws.
+Replay record_walk() {
+    const game::Level level = game::make_level(game::Scene::load(COURT));
+    Simulation simulation(level);
+    Replay replay;
+    replay.scene = COURT;
+    replay.level_hash = compute_hash(level);
+    replay.width_px = 96;
+    replay.height_px = 54;
+    const game::Settings settings = game::Settings::preset("clean");
+    for (const game::SettingInfo& row : game::Settings::list())
+        replay.settings.emplace_back(row.name, settings.get(row.name));
+    for (int i = 0; i < STEPS; ++i) {
+        game::StepInput input = tarn::test::go_ahead(i > 40);
+        input.look_right = i % 3;
+        input.throw_ball = i % 12 == 5;
+        replay.steps.push_back(input);
+        simulation.step(input);
+    }
+    replay.state_hash = compute_hash(simulation.state());
+    return replay;
+}
+
+class SandboxReplay : public testing::Test {
+  protected:
+    static void SetUpTestSuite() { replay_ = std::make_unique<Replay>(record_walk()); }
+    static void TearDownTestSuite() { replay_.reset(); }
+
+    ProcessResult play(const std::string& out) {
+        return run_process({TARN_BUILD_DIR "/tarn-sandbox", "--replay", folder_.file("a.replay"),
+                            "--headless", "--every", std::to_string(EVERY), "--out", folder_.file(out)});
+    }
+    std::vector<std::string> read_frames(const std::string& out) {
+        std::vector<std::string> frames;
+        for (int i = 0;; ++i) {
+            const std::string file = folder_.file(fmt::format("{}/frame_{:06}.png", out, i));
+            if (!std::filesystem::exists(file)) return frames;
+            frames.push_back(read_text(file));
+        }
+    }
+    void expect_error(const std::string& part) {
+        const ProcessResult result = play("error");
+        EXPECT_EQ(result.status, 1);
+        EXPECT_EQ(result.error_lines(), 1) << result.err;
+        EXPECT_NE(result.err.find("a.replay: "), std::string::npos) << result.err;
+        EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
+    }
+
+    static inline std::unique_ptr<Replay> replay_;
+    TemporaryFolder folder_;
+};
+
+TEST_F(SandboxReplay, TwoRunsShowTheSamePictures) {
+    game::save_replay(folder_.file("a.replay"), *replay_);
+    for (const char* out : {"first", "second"}) {
+        const ProcessResult result = play(out);
+        ASSERT_EQ(result.status, 0) << result.err;
+    }
+    const std::vector<std::string> first = read_frames("first");
+    ASSERT_EQ(first.size(), std::size_t(STEPS / EVERY + 1));
+    EXPECT_EQ(first, read_frames("second"));
+    for (std::size_t i = 1; i < first.size(); ++i) EXPECT_NE(first[i], first[i - 1]);
+    EXPECT_TRUE(first[0].starts_with("\x89PNG"));
+
+    // Other inputs, other pictures: what is compared is what was played.
+    Replay other = *replay_;
+    other.steps[2].look_right += 40;
+    game::save_replay(folder_.file("a.replay"), other);
+    expect_error("the play ended in the state");
+    EXPECT_EQ(read_frames("error")[0], first[0]);
+    EXPECT_NE(read_frames("error")[1], first[1]);
+}
+
+TEST_F(SandboxReplay, WhatIsBrokenIsNamedInOneLine) {
+    Replay replay = *replay_;
+    replay.level_hash ^= 1;
+    game::save_replay(folder_.file("a.replay"), replay);
+    expect_error("recorded in the level");
+    replay = *replay_;
+    replay.settings.emplace_back("colour", "red");
+    game::save_replay(folder_.file("a.replay"), replay);
+    expect_error("no setting 'colour'");
+    std::ofstream(folder_.file("a.replay")) << "tarn-sandbox-replay 1\nscene x\n";
+    expect_error("line 3: the line 'end' is missing");
+}
+
+}  // namespace
