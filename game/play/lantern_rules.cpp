@@ -8,7 +8,7 @@
 namespace game {
 namespace {
 
-constexpr double AIM_COSINE = 0.94;  // within 20 degrees of the middle of the view
+constexpr double AIM_COSINE = 0.9;  // within 26 degrees of the middle of the view
 constexpr double BRIGHTNESS_STEP = 1.25;
 constexpr double DIMMEST = 0.1, BRIGHTEST = 4.0;
 

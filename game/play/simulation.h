@@ -14,7 +14,7 @@ namespace game {
 inline constexpr int STEPS_PER_S = 60;
 inline constexpr double STEP_S = 1.0 / STEPS_PER_S;
 inline constexpr int BALL_LIMIT = 50;  // a further one takes the place of the oldest
-inline constexpr double BALL_RADIUS_M = 0.12;
+inline constexpr double BALL_RADIUS_M = 0.15;
 inline constexpr int PLAY_COLORS = 8;  // of balls and lanterns
 
 struct PlayerState {

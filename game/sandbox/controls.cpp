@@ -8,6 +8,8 @@
 namespace game {
 namespace {
 
+constexpr int UNSETTLED_LOOKS = 3;
+
 // The whole part; what is left waits for the next call.
 int take_whole(double& value) {
     const double whole = std::trunc(value);
@@ -18,6 +20,7 @@ int take_whole(double& value) {
 }  // namespace
 
 void ControlReader::capture_mouse(bool captured) {
+    if (captured && !has_mouse_) unsettled_looks_ = UNSETTLED_LOOKS;
     has_mouse_ = captured;
     input_.capture_mouse(captured);
 }
@@ -34,7 +37,11 @@ void ControlReader::read_play(StepInput& play) {
     play.throw_ball = input_.was_clicked(GLFW_MOUSE_BUTTON_LEFT);
     play.use = input_.was_pressed(GLFW_KEY_E);
     play.restart = input_.was_pressed(GLFW_KEY_R);
-    const Vec2 way = input_.take_mouse_way();
+    Vec2 way = input_.take_mouse_way();
+    if (unsettled_looks_ > 0) {
+        --unsettled_looks_;
+        way = {};
+    }
     rest_px_ = {rest_px_.x + way.x, rest_px_.y + way.y};
     rest_steps_ += input_.wheel_steps();
     play.look_right = take_whole(rest_px_.x);

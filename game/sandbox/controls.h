@@ -33,7 +33,8 @@ class ControlReader {
 
     WindowInput input_;
     bool has_mouse_ = false;
-    Vec2 rest_px_;  // of the mouse's way: less than a pixel
+    int unsettled_looks_ = 0;  // since it was captured: until the pointer is where the window system wants it
+    Vec2 rest_px_;             // of the mouse's way: less than a pixel
     double rest_steps_ = 0.0;
 };
 

@@ -94,6 +94,7 @@ expect_end "the second Escape"
 echo "ok: the second Escape ends it with 0"
 
 is_file run.replay || fail "there is no record"
+[[ $(grep -m 1 '^step' run.replay) == *' - 0 0 0' ]] || fail "the head turns by itself: $(grep -m 1 '^step' run.replay)"
 "$sandbox" --replay run.replay --headless --every 60 --out headless >>log.txt 2>&1 || fail "headless: $(tail -n 1 log.txt)"
 "$sandbox" --replay run.replay --every 60 --out windowed >>log.txt 2>&1 || fail "windowed: $(tail -n 1 log.txt)"
 (($(ls headless | wc -l) > 3)) || fail "there are $(ls headless | wc -l) pictures"
