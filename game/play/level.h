@@ -21,7 +21,8 @@ struct Level {
     std::vector<std::array<float, 9>> triangles;
     Vec3 origin;  // world space; near the triangles, so that single precision keeps its digits
     Box bounds;   // of the triangles, world space; empty without triangles
-    // Where the eye starts; it is dropped to the floor. Yaw and pitch as in FlyCamera.
+    // Where the eye starts; it is dropped to the floor, and where there is none below it the level gets one.
+    // Yaw and pitch as in FlyCamera.
     Vec3 start_eye;
     double start_yaw_rad = 0.0;
     double start_pitch_rad = 0.0;

@@ -22,15 +22,26 @@ Physics::Physics(const Level& level)
     }
     if (level.triangles.empty()) return;
     shape_ = std::make_unique<btBvhTriangleMeshShape>(&mesh_, true);
-    btRigidBody::btRigidBodyConstructionInfo info(0.0f, nullptr, shape_.get());
-    info.m_friction = 0.7f;
-    info.m_restitution = 1.0f;  // a contact has the product of both sides: the ball's own
-    body_ = std::make_unique<btRigidBody>(info);
-    world_.addRigidBody(body_.get(), GROUP_LEVEL, GROUP_BALL | GROUP_CHARACTER);
+    body_ = add_still(*shape_);
 }
 
 Physics::~Physics() {
     if (body_) world_.removeRigidBody(body_.get());
+    if (ground_) world_.removeRigidBody(ground_.get());
+}
+
+std::unique_ptr<btRigidBody> Physics::add_still(btCollisionShape& shape) {
+    btRigidBody::btRigidBodyConstructionInfo info(0.0f, nullptr, &shape);
+    info.m_friction = 0.7f;
+    info.m_restitution = 1.0f;  // a contact has the product of both sides: the ball's own
+    auto body = std::make_unique<btRigidBody>(info);
+    world_.addRigidBody(body.get(), GROUP_LEVEL, GROUP_BALL | GROUP_CHARACTER);
+    return body;
+}
+
+void Physics::add_ground(btScalar height_m) {
+    ground_shape_ = std::make_unique<btStaticPlaneShape>(btVector3(0.0f, 1.0f, 0.0f), height_m);
+    ground_ = add_still(*ground_shape_);
 }
 
 btVector3 Physics::to_local(const Vec3& p) const {

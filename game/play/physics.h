@@ -26,6 +26,9 @@ class Physics {
 
     btDiscreteDynamicsWorld& world() { return world_; }
 
+    // An endless floor at this height, relative to the origin.
+    void add_ground(btScalar height_m);
+
     btVector3 to_local(const Vec3& point_ws) const;
     Vec3 to_world(const btVector3& point) const;
 
@@ -33,6 +36,8 @@ class Physics {
     bool is_surface_between(const btVector3& from, const btVector3& to) const;
 
   private:
+    std::unique_ptr<btRigidBody> add_still(btCollisionShape& shape);
+
     Vec3 origin_;
     btDefaultCollisionConfiguration configuration_;
     btCollisionDispatcher dispatcher_;
@@ -43,6 +48,8 @@ class Physics {
     btTriangleMesh mesh_;
     std::unique_ptr<btBvhTriangleMeshShape> shape_;
     std::unique_ptr<btRigidBody> body_;
+    std::unique_ptr<btStaticPlaneShape> ground_shape_;
+    std::unique_ptr<btRigidBody> ground_;
 };
 
 }  // namespace game

@@ -44,8 +44,10 @@ double sweep_ball(Physics& physics, const btVector3& from, const btVector3& to) 
     return double(hit.m_closestHitFraction);
 }
 
-// The floor below the eye, or as far below it as feet are.
+// Where the feet are when the eye has dropped to the floor. Many scenes have none below their camera: those
+// get an endless one, as low as the lowest of their triangles.
 btVector3 find_start(Physics& physics, const Level& level) {
+    constexpr btScalar ABOVE_FLOOR_M = 0.02f;
     const btVector3 eye = physics.to_local(level.start_eye);
     const double depth_m = std::max(2.0, level.start_eye.y - level.bounds.lower.y + 1.0);
     const btVector3 below = eye - btVector3(0.0f, btScalar(std::min(depth_m, 1e4)), 0.0f);
@@ -53,8 +55,12 @@ btVector3 find_start(Physics& physics, const Level& level) {
     floor.m_collisionFilterGroup = GROUP_CHARACTER;
     floor.m_collisionFilterMask = GROUP_LEVEL;
     physics.world().rayTest(eye, below, floor);
-    if (!floor.hasHit()) return eye - btVector3(0.0f, Character::HEIGHT_M, 0.0f);
-    return floor.m_hitPointWorld + btVector3(0.0f, 0.02f, 0.0f);
+    if (floor.hasHit()) return floor.m_hitPointWorld + btVector3(0.0f, ABOVE_FLOOR_M, 0.0f);
+    const double lowest = level.triangles.empty() ? level.start_eye.y : level.bounds.lower.y;
+    const auto ground =
+        btScalar(std::min(lowest, level.start_eye.y - double(Character::HEIGHT_M)) - level.origin.y);
+    physics.add_ground(ground);
+    return {eye.x(), ground + ABOVE_FLOOR_M, eye.z()};
 }
 
 }  // namespace

@@ -156,6 +156,14 @@ TEST(Character, CrouchesUnderABeamAndStandsUpOnlyBeyondIt) {
     EXPECT_NEAR(crouched.state().player.eye_height_m, 1.62, 0.01);
 }
 
+TEST(Character, StandsOnAGroundOfItsOwnWhereNoFloorIsBelowTheStart) {
+    Simulation simulation(LevelBuilder().wall_ahead(-3.0, -2.5, 4.0).level());
+    run_steps(simulation, 120, go_ahead());
+    EXPECT_NEAR(simulation.state().player.feet.y, -2.5, 0.05);
+    EXPECT_TRUE(simulation.state().player.is_on_ground);
+    EXPECT_GT(simulation.state().player.feet.z, -3.0);
+}
+
 TEST(Character, FallsOffTheLevelAndStartsAgain) {
     Simulation simulation(LevelBuilder().floor(3.0).level());
     bool fell = false;
