@@ -7,6 +7,7 @@ namespace {
 
 constexpr btScalar CROUCHED_HEIGHT_M = 1.1f;
 constexpr btScalar CROUCHED_STEP_HEIGHT_M = 0.18f;  // else it bumps against what it crawls under
+constexpr btScalar SKIN_M = 0.1f;  // how deep a body may be in a floor or a ceiling for a moment
 constexpr btScalar EYE_BELOW_TOP_M = 0.13f;
 constexpr btScalar EYE_SPEED_M_S = 4.0f;  // up and down, when crouching
 constexpr btScalar WALK_M_S = 3.0f;
@@ -84,7 +85,7 @@ bool Character::has_room_to_stand() const {
     contact.m_collisionFilterGroup = GROUP_CHARACTER;
     contact.m_collisionFilterMask = GROUP_LEVEL;
     physics_.world().contactTest(&standing, contact);
-    return !contact.found;
+    return !contact.found && !is_pierced(HEIGHT_M);
 }
 
 void Character::set_height(bool crouch) {
@@ -110,10 +111,17 @@ void Character::accelerate(const WalkInput& input, btScalar dt_s) {
     velocity_ += length > most ? missing * (most / length) : missing;
 }
 
-// The controller pushes itself out of what it is wedged into, at times to the wrong side. Its middle passes
-// no surface: then it stays where it was.
+// Whether a surface cuts through the middle of a body that stands here.
+bool Character::is_pierced(btScalar height_m) const {
+    const btVector3 low = feet() + btVector3(0.0f, SKIN_M, 0.0f);
+    return physics_.is_surface_between(low, low + btVector3(0.0f, height_m - 2.0f * SKIN_M, 0.0f));
+}
+
+// The controller pushes itself out of what it is wedged into, at times to the wrong side. Where its middle
+// would pass a surface, or a surface pass through it, it stays where it was.
 void Character::hold(const btVector3& before) {
-    if (!physics_.is_surface_between(before, ghost_.getWorldTransform().getOrigin())) return;
+    const btVector3& now = ghost_.getWorldTransform().getOrigin();
+    if (!physics_.is_surface_between(before, now) && !is_pierced(2.0f * half_height_m(shape()))) return;
     controller_.reset(&physics_.world());
     controller_.warp(before);
 }
@@ -131,8 +139,15 @@ void Character::step(const WalkInput& input, btScalar dt_s) {
     moved.setY(0.0f);
     if (moved.length2() < velocity_.length2()) velocity_ = moved;
     body_.setWorldTransform(ghost_.getWorldTransform());
-    const btScalar eye = 2.0f * half_height_m(shape()) - EYE_BELOW_TOP_M - eye_height_m_;
-    eye_height_m_ += std::clamp(eye, -EYE_SPEED_M_S * dt_s, EYE_SPEED_M_S * dt_s);
+    move_eye(dt_s);
+}
+
+// It follows the body's height slowly, but not through a ceiling.
+void Character::move_eye(btScalar dt_s) {
+    const btScalar wanted = 2.0f * half_height_m(shape()) - EYE_BELOW_TOP_M;
+    eye_height_m_ += std::clamp(wanted - eye_height_m_, -EYE_SPEED_M_S * dt_s, EYE_SPEED_M_S * dt_s);
+    const btVector3 above = feet() + btVector3(0.0f, eye_height_m_ + EYE_BELOW_TOP_M, 0.0f);
+    if (physics_.is_surface_between(ghost_.getWorldTransform().getOrigin(), above)) eye_height_m_ = wanted;
 }
 
 }  // namespace game

@@ -53,6 +53,8 @@ class Character {
     void set_height(bool crouch);
     void change_height(bool crouch);
     bool has_room_to_stand() const;
+    bool is_pierced(btScalar height_m) const;
+    void move_eye(btScalar dt_s);
     void hold(const btVector3& before);
     void accelerate(const WalkInput& input, btScalar dt_s);
 

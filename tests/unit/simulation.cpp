@@ -94,6 +94,26 @@ TEST(Simulation, TwentyThousandRandomStepsStayFiniteAndInTheRoom) {
     EXPECT_EQ(outside, 0);
 }
 
+// So narrow that balls are squeezed against thin walls, so low that who jumps hits the ceiling.
+TEST(Simulation, NobodyAndNoBallGetsOutOfANarrowLowRoom) {
+    constexpr double HALF_M = 1.5, HEIGHT_M = 2.6;
+    const auto is_inside = [](const game::Vec3& p) {
+        return std::max(std::abs(p.x), std::abs(p.z)) < HALF_M && p.y > 0.0 && p.y < HEIGHT_M;
+    };
+    for (const std::uint32_t seed : {1u, 2u, 3u}) {
+        Simulation simulation(LevelBuilder().room(HALF_M, HEIGHT_M).level());
+        RandomPlayer player(seed);
+        for (int i = 0; i < 2000; ++i) {
+            StepInput input = player.next();
+            input.throw_ball = i % 10 == 0 && i < 600;
+            simulation.step(input);
+            ASSERT_TRUE(is_inside(simulation.state().player.eye())) << "seed " << seed << ", step " << i;
+            for (const game::BallState& ball : simulation.state().balls)
+                ASSERT_TRUE(!ball.is_alive || is_inside(ball.position)) << "seed " << seed << ", step " << i;
+        }
+    }
+}
+
 TEST(Simulation, AnEmptyLevelAndOneFarAwayDoNoHarm) {
     Simulation nothing{game::Level()};
     run_steps(nothing, 120, tarn::test::go_ahead(true));
