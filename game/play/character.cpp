@@ -139,15 +139,8 @@ void Character::step(const WalkInput& input, btScalar dt_s) {
     moved.setY(0.0f);
     if (moved.length2() < velocity_.length2()) velocity_ = moved;
     body_.setWorldTransform(ghost_.getWorldTransform());
-    move_eye(dt_s);
-}
-
-// It follows the body's height slowly, but not through a ceiling.
-void Character::move_eye(btScalar dt_s) {
-    const btScalar wanted = 2.0f * half_height_m(shape()) - EYE_BELOW_TOP_M;
-    eye_height_m_ += std::clamp(wanted - eye_height_m_, -EYE_SPEED_M_S * dt_s, EYE_SPEED_M_S * dt_s);
-    const btVector3 above = feet() + btVector3(0.0f, eye_height_m_ + EYE_BELOW_TOP_M, 0.0f);
-    if (physics_.is_surface_between(ghost_.getWorldTransform().getOrigin(), above)) eye_height_m_ = wanted;
+    const btScalar eye = 2.0f * half_height_m(shape()) - EYE_BELOW_TOP_M - eye_height_m_;
+    eye_height_m_ += std::clamp(eye, -EYE_SPEED_M_S * dt_s, EYE_SPEED_M_S * dt_s);
 }
 
 }  // namespace game

@@ -54,7 +54,6 @@ class Character {
     void change_height(bool crouch);
     bool has_room_to_stand() const;
     bool is_pierced(btScalar height_m) const;
-    void move_eye(btScalar dt_s);
     void hold(const btVector3& before);
     void accelerate(const WalkInput& input, btScalar dt_s);
 

@@ -46,7 +46,7 @@ rm -rf "$folder"
 mkdir -p "$folder"
 cd "$folder"
 
-"$sandbox" --size 320x180 --record run.replay >log.txt 2>&1 &
+"$sandbox" --size 320x180 --scale 0.25 --record run.replay >log.txt 2>&1 &
 viewer=$!
 wait_for "a window, playing" exists
 wait_for "steps pass" has_stepped 20
@@ -80,6 +80,12 @@ xdotool key F2
 wait_for "F2 goes on" has_title playing
 xdotool key r
 wait_for "R starts again" has_title "balls=0"
+xdotool windowsize "$window" 400 200
+wait_for "the renderer follows the window" has_title "400x200"
+xdotool key F11
+wait_for "F11 fills the screen" has_title "1280x800"
+xdotool key F11
+wait_for "and back" has_title "400x200"
 
 xdotool key Escape
 wait_for "Escape frees the mouse" has_title paused
