@@ -21,8 +21,8 @@ const std::string COURT = TARN_BUILD_DIR "/content/lantern_court.glb";
 constexpr int STEPS = 96;
 constexpr int EVERY = 8;
 
-// Walks, turns and throws.
-Replay record_walk() {
+// Walks, turns and, if wanted, throws.
+Replay record_walk(int steps, bool throws) {
     const game::Level level = game::make_level(game::Scene::load(COURT));
     Simulation simulation(level);
     Replay replay;
@@ -33,10 +33,10 @@ Replay record_walk() {
     const game::Settings settings = game::Settings::preset("clean");
     for (const game::SettingInfo& row : game::Settings::list())
         replay.settings.emplace_back(row.name, settings.get(row.name));
-    for (int i = 0; i < STEPS; ++i) {
+    for (int i = 0; i < steps; ++i) {
         game::StepInput input = tarn::test::go_ahead(i > 40);
         input.look_right = i % 3;
-        input.throw_ball = i % 12 == 5;
+        input.throw_ball = throws && i % 12 == 5;
         replay.steps.push_back(input);
         simulation.step(input);
     }
@@ -46,7 +46,7 @@ Replay record_walk() {
 
 class SandboxReplay : public testing::Test {
   protected:
-    static void SetUpTestSuite() { replay_ = std::make_unique<Replay>(record_walk()); }
+    static void SetUpTestSuite() { replay_ = std::make_unique<Replay>(record_walk(STEPS, true)); }
     static void TearDownTestSuite() { replay_.reset(); }
 
     ProcessResult play(const std::string& out) {
@@ -92,6 +92,20 @@ TEST_F(SandboxReplay, TwoRunsShowTheSamePictures) {
     expect_error("the play ended in the state");
     EXPECT_EQ(read_frames("error")[0], first[0]);
     EXPECT_NE(read_frames("error")[1], first[1]);
+}
+
+TEST_F(SandboxReplay, WhatIsThrownIsSeen) {
+    for (const bool throws : {false, true}) {
+        game::save_replay(folder_.file("a.replay"), record_walk(2 * EVERY, throws));
+        const ProcessResult result = play(throws ? "throwing" : "walking");
+        ASSERT_EQ(result.status, 0) << result.err;
+    }
+    const std::vector<std::string> walking = read_frames("walking"), throwing = read_frames("throwing");
+    ASSERT_EQ(walking.size(), 3u);
+    ASSERT_EQ(throwing.size(), 3u);
+    EXPECT_EQ(walking[0], throwing[0]);
+    EXPECT_NE(walking[1], throwing[1]);
+    EXPECT_NE(walking[2], throwing[2]);
 }
 
 TEST_F(SandboxReplay, WhatIsBrokenIsNamedInOneLine) {
