@@ -95,6 +95,8 @@ void draw_costs(const SandboxFacts& facts) {
     write(fmt::format("simulation {:.2f} ms a frame", facts.step_ms));
     write(fmt::format("rays: {} shadow, {} closest", facts.report.shadow_rays, facts.report.closest_rays));
     if (!ImGui::BeginTable("passes", 2)) return;
+    ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthFixed);
+    ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthStretch);
     for (const PassTime& pass : facts.cost.passes) {
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
