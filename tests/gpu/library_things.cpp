@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <limits>
+#include <sstream>
 
 #include "support/process.h"
 // After the engine's own headers: it makes their names ambiguous inside of namespace tarn.
@@ -35,6 +37,32 @@ double volume_of(const std::vector<tarn::Vec3>& corners) {
             a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
     }
     return volume / 6.0;
+}
+
+// The floor on a node that an animation lifts by a metre in a second.
+std::string write_carried_floor(const TemporaryFolder& folder) {
+    const std::string file = write_floor(folder);
+    const float keys[] = {0, 1, 0, 0, 0, 0, 1, 0};  // two times, two translations
+    std::ofstream(folder.file("floor.bin"), std::ios::binary | std::ios::app)
+        .write(reinterpret_cast<const char*>(keys), sizeof(keys));
+    std::stringstream text;
+    text << std::ifstream(file).rdbuf();
+    std::string json = text.str();
+    const auto put = [&](const std::string& old, const std::string& fresh) {
+        json.replace(json.find(old), old.size(), fresh);
+    };
+    put(R"("nodes": [0, 1])", R"("nodes": [2, 1])");
+    put(R"({"light": 0}}}])", R"({"light": 0}}}, {"name": "carrier", "children": [0]}],
+        "animations": [{"samplers": [{"input": 2, "output": 3}],
+                        "channels": [{"sampler": 0, "target": {"node": 2, "path": "translation"}}]}])");
+    put(R"("byteLength": 60)", R"("byteLength": 92)");
+    put(R"("byteLength": 12}])", R"("byteLength": 12}, {"buffer": 0, "byteOffset": 60, "byteLength": 8},
+                        {"buffer": 0, "byteOffset": 68, "byteLength": 24}])");
+    put(R"("type": "SCALAR"}])", R"("type": "SCALAR"},
+                      {"bufferView": 2, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1]},
+                      {"bufferView": 3, "componentType": 5126, "count": 2, "type": "VEC3"}])");
+    std::ofstream(file) << json;
+    return file;
 }
 
 class Things : public testing::Test {
@@ -70,6 +98,55 @@ TEST_F(Things, TrianglesStandWhereTheirNodeIs) {
     EXPECT_EQ(all[0].corners[5].x, 11.0);
     EXPECT_EQ(all[0].corners[5].y, 2.0);
     EXPECT_EQ(all[0].corners[5].z, 1.0);
+}
+
+// In the court things hang on nodes that swing, and leaves are cut out by their texture.
+TEST_F(Things, TrianglesSayWhatAnimationsMoveAndWhatHasHoles) {
+    tarn::Scene court = tarn::Scene::load(TARN_BUILD_DIR "/content/lantern_court.glb");
+    court.move_to(0.2);
+    const std::vector<tarn::Triangles> before = court.triangles();
+    court.move_to(0.9);
+    const std::vector<tarn::Triangles> after = court.triangles();
+    ASSERT_EQ(before.size(), after.size());
+    int moved = 0, holes = 0, still = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        bool moves = false;
+        for (std::size_t k = 0; k < before[i].corners.size(); ++k) {
+            const tarn::Vec3 &a = before[i].corners[k], &b = after[i].corners[k];
+            moves = moves || a.x != b.x || a.y != b.y || a.z != b.z;
+        }
+        if (moves) EXPECT_TRUE(after[i].is_animated) << court.node_name(after[i].node);
+        moved += moves ? 1 : 0;
+        still += after[i].is_animated ? 0 : 1;
+        holes += after[i].has_holes ? 1 : 0;
+    }
+    EXPECT_GT(moved, 10);
+    EXPECT_GT(still, 10);
+    EXPECT_GT(holes, 0);
+    EXPECT_LT(holes, int(after.size()) / 2);
+}
+
+TEST_F(Things, TrianglesSayThatTheirParentIsAnimated) {
+    tarn::Scene scene = tarn::Scene::load(write_carried_floor(folder_));
+    scene.move_to(0.5);
+    const std::vector<tarn::Triangles> all = scene.triangles();
+    ASSERT_EQ(all.size(), 1u);
+    EXPECT_NEAR(all[0].corners[0].y, 0.5, 1e-6);
+    EXPECT_TRUE(all[0].is_animated);
+}
+
+TEST_F(Things, ASurfaceIsWhatItWasSetTo) {
+    const tarn::Surface set{{0.1, 0.25, 0.5}, 0.75, 0.125, {1.0, 2.0, 4.0}};
+    scene_.set_surface(0, set);
+    const tarn::Surface found = scene_.surface(0);
+    EXPECT_NEAR(found.base_color.x, 0.1, 1e-6);
+    EXPECT_EQ(found.base_color.y, 0.25);
+    EXPECT_EQ(found.base_color.z, 0.5);
+    EXPECT_EQ(found.roughness, 0.75);
+    EXPECT_EQ(found.metallic, 0.125);
+    EXPECT_EQ(found.emission.x, 1.0);
+    EXPECT_EQ(found.emission.y, 2.0);
+    EXPECT_EQ(found.emission.z, 4.0);
 }
 
 TEST_F(Things, SpheresAndBoxesAreClosedAndFaceOutwards) {

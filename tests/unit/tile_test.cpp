@@ -181,6 +181,39 @@ TEST(TileSamples, cover_images_that_tiles_do_not_divide) {
     EXPECT_FALSE(test.passes);
 }
 
+// Of 20 runs of 32 seeds, how many ever stand out.
+int count_standouts(const Noise& noise, double significance) {
+    Random random(11);
+    int count = 0;
+    for (int trial = 0; trial < 20; ++trial) {
+        TileSamples samples(WIDTH, HEIGHT, 16);
+        const TileReference reference = reference_with_error(random, 0.05f);
+        bool stands_out_once = false;
+        for (int seed = 0; seed < 32; ++seed) {
+            samples.add(noise_image(random, noise));
+            stands_out_once = stands_out_once || stands_out(samples, reference, significance);
+        }
+        count += stands_out_once ? 1 : 0;
+    }
+    return count;
+}
+
+// Four looks at a hundredth of a half each: one run in 50. Looks at the whole of it find most of the runs.
+TEST(StandsOut, right_estimators_do_so_seldom) {
+    EXPECT_LE(count_standouts(gaussian, 0.5), 3);
+    EXPECT_LE(count_standouts(rare_bright(4.0, 0.2f), 0.5), 3);
+}
+
+TEST(StandsOut, a_large_bias_does_so_at_the_first_look) {
+    Random random(12);
+    TileSamples samples(WIDTH, HEIGHT, 16);
+    const TileReference reference = reference_with_error(random, 0.05f);
+    for (int seed = 1; seed <= 8; ++seed) {
+        samples.add(noise_image(random, [](Random& r) { return 1.5f * gaussian(r); }));
+        EXPECT_EQ(stands_out(samples, reference), seed == 8) << seed;
+    }
+}
+
 TEST(TestTiles, compares_images_of_independent_pixels) {
     Random random(10);
     int failures = 0;
