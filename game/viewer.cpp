@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <system_error>
 #include <thread>
+
+#include "session.h"
 
 namespace game {
 namespace {
@@ -15,27 +16,8 @@ constexpr auto RESIZE_DELAY = std::chrono::milliseconds(250);
 constexpr auto MESSAGE_TIME = std::chrono::seconds(5);
 constexpr auto TITLE_INTERVAL = std::chrono::milliseconds(100);
 
-Engine start_engine(const Window& window, int threads) {
-    EngineOptions options;
-    options.gl_loader = window.gl_loader();
-    options.threads = threads;
-    return Engine(options);
-}
-
 double aspect_of(const Size& size) {
     return double(std::max(1, size.width_px)) / std::max(1, size.height_px);
-}
-
-std::filesystem::path find_new_name() {
-    const std::filesystem::path folder = "out";
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error)
-        throw Error(fmt::format("{}: the folder cannot be made: {}", folder.string(), error.message()));
-    for (int i = 1;; ++i) {
-        const std::filesystem::path file = folder / fmt::format("screenshot_{:04}.png", i);
-        if (!std::filesystem::exists(file)) return file;
-    }
 }
 
 std::string describe_extent(const Box& bounds) {
@@ -49,7 +31,7 @@ std::string describe_extent(const Box& bounds) {
 Viewer::Viewer(Window& window, Scene scene, const ViewerOptions& options)
     : options_(options),
       window_(window),
-      engine_(start_engine(window, options.threads)),
+      engine_(open_engine(&window, options.threads)),
       scene_(std::move(scene)),
       overlay_(window) {
     state_.settings = options.settings;
@@ -246,8 +228,9 @@ void Viewer::reload_shaders() {
 void Viewer::save_screenshot() {
     if (!has_picture_) return;
     try {
-        const std::filesystem::path file =
-            state_.screenshot_file.empty() ? find_new_name() : std::filesystem::path(state_.screenshot_file);
+        const std::filesystem::path file = state_.screenshot_file.empty()
+                                               ? find_new_picture("screenshot")
+                                               : std::filesystem::path(state_.screenshot_file);
         view_->write_png(file);
         report("wrote " + file.string(), false);
     } catch (const Error& error) {

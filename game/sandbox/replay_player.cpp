@@ -4,15 +4,10 @@
 
 #include <system_error>
 
+#include "../session.h"
+
 namespace game {
 namespace {
-
-Engine open_engine(const Window* window, int threads) {
-    EngineOptions options;
-    if (window != nullptr) options.gl_loader = window->gl_loader();
-    options.threads = threads;
-    return Engine(options);
-}
 
 void make_folder(const std::filesystem::path& folder) {
     std::error_code failure;

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <system_error>
 #include <thread>
 #include <utility>
+
+#include "../session.h"
 
 namespace game {
 namespace {
@@ -13,25 +14,6 @@ namespace {
 constexpr double LONGEST_FRAME_S = 0.25;  // on a slower machine time goes slower, not farther a frame
 constexpr auto RESIZE_DELAY = std::chrono::milliseconds(250);
 constexpr auto MESSAGE_TIME = std::chrono::seconds(5);
-
-Engine open_window_engine(const Window& window, int threads) {
-    EngineOptions options;
-    options.gl_loader = window.gl_loader();
-    options.threads = threads;
-    return Engine(options);
-}
-
-std::filesystem::path find_new_picture() {
-    const std::filesystem::path folder = "out";
-    std::error_code failure;
-    std::filesystem::create_directories(folder, failure);
-    if (failure)
-        throw Error(fmt::format("{}: the folder cannot be made: {}", folder.string(), failure.message()));
-    for (int i = 1;; ++i) {
-        const std::filesystem::path file = folder / fmt::format("sandbox_{:04}.png", i);
-        if (!std::filesystem::exists(file)) return file;
-    }
-}
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -42,7 +24,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 Sandbox::Sandbox(Window& window, Scene scene, const SandboxOptions& options)
     : options_(options),
       window_(window),
-      engine_(open_window_engine(window, options.threads)),
+      engine_(open_engine(&window, options.threads)),
       stage_(std::move(scene)),
       controls_(window),
       widgets_(window) {
@@ -171,7 +153,7 @@ void Sandbox::update_title() {
 void Sandbox::save_screenshot() {
     if (frame_ == 0) return;
     try {
-        const std::filesystem::path file = find_new_picture();
+        const std::filesystem::path file = find_new_picture("sandbox");
         view_->write_png(file);
         report("wrote " + file.string());
     } catch (const Error& error) {
