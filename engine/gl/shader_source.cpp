@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <fstream>
 #include <regex>
@@ -42,34 +43,63 @@ std::string first_word(const std::string& text) {
     return text.substr(0, text.find_first_of(" \t(=/"));
 }
 
-// A branch of a conditional: active or not, or (not known) an expression that only the driver evaluates.
+// "defined(A) && B > 2 // why" -> A, B and defined.
+void collect_names(const std::string& line, std::set<std::string>& names) {
+    const std::string code = line.substr(0, line.find("//"));
+    const auto is_of_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+    for (auto at = code.begin(); at != code.end();) {
+        const auto begin = std::find_if(at, code.end(), is_of_name);
+        at = std::find_if_not(begin, code.end(), is_of_name);
+        if (begin != at) names.emplace(begin, at);
+    }
+}
+
+// A branch of a conditional. One that only the driver can decide (#if, or a name whose definition it decides)
+// counts as active; of the others no directive is written, and no line of those that are not active.
 struct Branch {
     bool is_active;
     bool is_known;
+    bool was_active;  // or a branch before it, of the same conditional
 };
 
 class SourceJoiner {
   public:
     SourceJoiner(const std::filesystem::path& root, std::span<const std::string> defines) : root_(root) {
-        source_.files.push_back("<defines>");
-        append_line("#version 450 core", 0, 1);
-        append_line("#define TARN_GLSL 1", 0, 2);
-        defined_.insert("TARN_GLSL");
+        add_define("TARN_GLSL");
         for (const std::string& define : defines) add_define(define);
     }
 
     ShaderSource join(const std::string& file) && {
+        source_.files.push_back("<defines>");
         add_file(file, "");
-        return std::move(source_);
+        ShaderSource whole = write_head();
+        whole.text += source_.text;
+        whole.files = std::move(source_.files);
+        whole.lines.insert(whole.lines.end(), source_.lines.begin(), source_.lines.end());
+        return whole;
     }
 
   private:
     void add_define(const std::string& define) {
         const std::size_t equals = define.find('=');
         const std::string name = define.substr(0, equals);
-        const std::string value = equals == std::string::npos ? "1" : define.substr(equals + 1);
-        append_line("#define " + name + " " + value, 0, int(source_.lines.size()) + 1);
+        defines_.emplace_back(name, equals == std::string::npos ? "1" : define.substr(equals + 1));
         defined_.insert(name);
+    }
+
+    // The version and those defines that the text names.
+    ShaderSource write_head() const {
+        std::set<std::string> names;
+        std::istringstream text(source_.text);
+        for (std::string line; std::getline(text, line);) collect_names(line, names);
+        for (const auto& [name, value] : defines_) collect_names(value, names);
+
+        ShaderSource head;
+        append_line(head, "#version 450 core", 0, 1);
+        for (const auto& [name, value] : defines_)
+            if (names.contains(name))
+                append_line(head, "#define " + name + " " + value, 0, int(head.lines.size()) + 1);
+        return head;
     }
 
     // `includer` is "file:line: ", or empty for the first file.
@@ -80,48 +110,86 @@ class SourceJoiner {
         const std::size_t number = source_.files.size();
         source_.files.push_back(file);
         open_files_.push_back(file);
-        std::vector<Branch> outer_branches = std::exchange(branches_, {});
+        const std::size_t outer_base = std::exchange(base_, branches_.size());
         int line_number = 0;
         for (std::string line; std::getline(stream, line);) add_line(line, file, number, ++line_number);
-        branches_ = std::move(outer_branches);
+        branches_.resize(base_);
+        base_ = outer_base;
         open_files_.pop_back();
     }
 
     void add_line(const std::string& line, const std::string& file, std::size_t number, int line_number) {
         const Directive directive = parse_directive(line);
-        follow_branches(directive);
+        if (is_conditional(directive.keyword)) {
+            const std::string written = follow_branches(directive, line);
+            if (!written.empty()) append_line(source_, written, number, line_number);
+            return;
+        }
+        if (!is_active()) return;
+        follow_defines(directive);
         if (directive.keyword == "include" && directive.argument.starts_with('"')) {
-            if (is_active()) add_include(directive.argument, fmt::format("{}:{}: ", file, line_number));
+            add_include(directive.argument, fmt::format("{}:{}: ", file, line_number));
         } else if (directive.keyword != "pragma" || directive.argument != "once") {
-            append_line(line, number, line_number);
+            append_line(source_, line, number, line_number);
         }
     }
 
-    void append_line(const std::string& line, std::size_t file, int line_number) {
-        source_.text += line + "\n";
-        source_.lines.push_back({file, line_number});
+    static void append_line(ShaderSource& source, const std::string& line, std::size_t file,
+                            int line_number) {
+        source.text += line + "\n";
+        source.lines.push_back({file, line_number});
     }
 
-    // Knows #ifdef and #ifndef; the branches of an #if are all taken for active.
-    void follow_branches(const Directive& directive) {
+    static bool is_conditional(const std::string& keyword) {
+        return keyword.starts_with("if") || keyword == "elif" || keyword == "else" || keyword == "endif";
+    }
+
+    // Returns what the driver must see of the directive.
+    std::string follow_branches(const Directive& directive, const std::string& line) {
         const std::string& keyword = directive.keyword;
-        if (keyword == "ifdef" || keyword == "ifndef") {
-            const bool defined = defined_.contains(first_word(directive.argument));
-            branches_.push_back({defined == (keyword == "ifdef"), true});
-        } else if (keyword == "if") {
-            branches_.push_back({true, false});
-        } else if (keyword == "define" && is_active()) {
-            defined_.insert(first_word(directive.argument));
-        } else if (!branches_.empty()) {
-            Branch& branch = branches_.back();
-            if (keyword == "else" && branch.is_known) branch.is_active = !branch.is_active;
-            if (keyword == "elif") branch = {true, false};
-            if (keyword == "endif") branches_.pop_back();
+        const bool was_active = is_active();
+        if (keyword.starts_with("if")) {
+            const std::string name = first_word(directive.argument);
+            const bool is_known = !was_active || (keyword != "if" && !perhaps_defined_.contains(name));
+            const bool is_taken = !is_known || defined_.contains(name) == (keyword == "ifdef");
+            branches_.push_back({is_taken, is_known, is_taken});
+            return is_known ? "" : line;
         }
+        if (branches_.size() == base_) return line;  // the driver's error
+        Branch& branch = branches_.back();
+        const bool is_known = branch.is_known;
+        if (keyword == "endif") branches_.pop_back();
+        if (!is_known) return line;
+        if (keyword == "endif") return "";
+        // The #elif of a branch that was not taken begins a conditional for the driver.
+        const bool begins = keyword == "elif" && !branch.was_active && is_active_outside();
+        branch = {!branch.was_active, !begins, true};
+        return begins ? "#if " + directive.argument : "";
+    }
+
+    void follow_defines(const Directive& directive) {
+        if (directive.keyword != "define" && directive.keyword != "undef") return;
+        const std::string name = first_word(directive.argument);
+        if (!is_known())
+            perhaps_defined_.insert(name);
+        else if (directive.keyword == "define")
+            defined_.insert(name);
+        else
+            defined_.erase(name);
     }
 
     bool is_active() const {
         return std::all_of(branches_.begin(), branches_.end(), [](const Branch& b) { return b.is_active; });
+    }
+
+    // But for the innermost conditional.
+    bool is_active_outside() const {
+        return std::all_of(branches_.begin(), branches_.end() - 1,
+                           [](const Branch& b) { return b.is_active; });
+    }
+
+    bool is_known() const {
+        return std::all_of(branches_.begin(), branches_.end(), [](const Branch& b) { return b.is_known; });
     }
 
     void add_include(const std::string& argument, const std::string& includer) {
@@ -144,10 +212,13 @@ class SourceJoiner {
     }
 
     std::filesystem::path root_;
-    ShaderSource source_;
+    ShaderSource source_;  // without its head
+    std::vector<std::pair<std::string, std::string>> defines_;
     std::vector<std::string> open_files_;  // from the first file down to the one being read
-    std::vector<Branch> branches_;         // enclosing conditionals of the line being read, in its own file
+    std::vector<Branch> branches_;         // enclosing conditionals of the line being read
+    std::size_t base_ = 0;                 // how many of them began in other files
     std::set<std::string> defined_;
+    std::set<std::string> perhaps_defined_;  // as the driver decides
 };
 
 std::string describe_line(const ShaderSource& source, const std::string& number) {

@@ -23,10 +23,12 @@ struct ShaderSource {
     std::vector<Line> lines;         // of each line of `text`
 };
 
-// The file `root / file` after "#version 450 core", TARN_GLSL and `defines` ("NAME" or "NAME=VALUE").
-// #include "a/b.h" is relative to `root`; each file is taken once, at its first include that is not switched
-// off by #ifdef / #ifndef of a define given here or above; #include <...> is left alone (C++ only); #pragma
-// once is dropped. Error for missing files and cycles, with the including file and line.
+// The file `root / file` after "#version 450 core" and those of TARN_GLSL and `defines` ("NAME" or
+// "NAME=VALUE") that it names. What #ifdef and #ifndef switch off is left out, so that defines that change
+// nothing in a shader leave its text as it is: drivers keep compiled programs by their text. #if is the
+// driver's to decide. #include "a/b.h" is relative to `root`; each file is taken once, at its first include
+// that is not switched off; #pragma once is dropped. Error for missing files and cycles, with the including
+// file and line.
 ShaderSource load_shader_source(const std::filesystem::path& root, const std::string& file,
                                 std::span<const std::string> defines);
 

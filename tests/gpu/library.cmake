@@ -8,4 +8,4 @@ add_dependencies(test_library tarn tarn_scenes)
 add_dependencies(test_library_in_host tarn_scenes)
 # The same from outside: installed, found by a foreign project, and run from there.
 add_test(NAME tools.library COMMAND bash ${PROJECT_SOURCE_DIR}/tests/tools/library_test.sh ${PROJECT_BINARY_DIR} ${WITH_DISPLAY})
-set_tests_properties(tools.library PROPERTIES LABELS tools TIMEOUT 300)
+set_tests_properties(tools.library PROPERTIES LABELS tools TIMEOUT 300 COST 300)

@@ -28,11 +28,57 @@ int count(const std::string& text, const std::string& part) {
     return found;
 }
 
-TEST(ShaderSource, BeginsWithTheVersionAndTheDefines) {
+TEST(ShaderSource, BeginsWithTheVersionAndTheDefinesThatItNames) {
     const ShaderFolder folder;
-    folder.write("a.comp", "void main() {}\n");
-    EXPECT_EQ(load(folder, "a.comp", {"ONE", "TWO=2"}).text,
-              "#version 450 core\n#define TARN_GLSL 1\n#define ONE 1\n#define TWO 2\nvoid main() {}\n");
+    folder.write("a.comp", "int a = ONE + TWO + TARN_GLSL;  // UNSAID\n");
+    EXPECT_EQ(load(folder, "a.comp", {"ONE", "TWO=2 * THREE", "THREE=3", "UNSAID", "ON"}).text,
+              "#version 450 core\n#define TARN_GLSL 1\n#define ONE 1\n#define TWO 2 * THREE\n"
+              "#define THREE 3\nint a = ONE + TWO + TARN_GLSL;  // UNSAID\n");
+}
+
+// The text without the version.
+std::string load_body(const std::string& text, const std::vector<std::string>& defines) {
+    const ShaderFolder folder;
+    folder.write("a.comp", text);
+    const std::string loaded = load(folder, "a.comp", defines).text;
+    return loaded.substr(loaded.find('\n') + 1);
+}
+
+TEST(ShaderSource, LeavesOutWhatIsSwitchedOff) {
+    const std::string text =
+        "#ifdef A\na\n#ifndef B\nnot b\n#else  // B\nb\n#endif\n#else\nnot a\n#endif\nend\n";
+    EXPECT_EQ(load_body(text, {}), "not a\nend\n");
+    EXPECT_EQ(load_body(text, {"A"}), "a\nnot b\nend\n");
+    EXPECT_EQ(load_body(text, {"A", "B"}), "a\nb\nend\n");
+    EXPECT_EQ(load_body(text, {"B"}), load_body(text, {"C"})) << "what changes nothing must not show";
+}
+
+TEST(ShaderSource, LeavesConditionsToTheDriver) {
+    const std::string text =
+        "#if defined(A) && B == 1\n#define C\nx\n#elif 1\ny\n#else\nz\n#endif\n"
+        "#ifdef C\nc\n#else\nno c\n#endif\n";
+    EXPECT_EQ(load_body(text, {"B=1", "D"}), "#define B 1\n" + text);
+    EXPECT_EQ(load_body("#ifdef A\n" + text + "#endif\n", {}), "");
+}
+
+TEST(ShaderSource, FollowsDefinesOfTheText) {
+    EXPECT_EQ(load_body("#define A\n#ifdef A\na\n#endif\n#undef A\n#ifndef A\nnone\n#endif\n", {}),
+              "#define A\na\n#undef A\nnone\n");
+    EXPECT_EQ(load_body("#ifdef B\n#define A\n#endif\n#ifdef A\na\n#endif\n", {}), "");
+}
+
+TEST(ShaderSource, ElifAfterIfdefIsDecidedByWhatCameBefore) {
+    const std::string text = "#ifdef A\na\n#elif B > 1\nb\n#else\nc\n#endif\n";
+    EXPECT_EQ(load_body(text, {"A"}), "a\n");
+    EXPECT_EQ(load_body(text, {"B=2"}), "#define B 2\n#if B > 1\nb\n#else\nc\n#endif\n");
+    EXPECT_EQ(load_body("#ifdef D\n" + text + "#endif\n", {"B=2"}), "");
+}
+
+TEST(ShaderSource, AStrayEndifIsTheDriversError) {
+    const ShaderFolder folder;
+    folder.write("b.h", "#endif\n");
+    folder.write("a.comp", "#ifdef A\n#include \"b.h\"\na\n#endif\n");
+    EXPECT_EQ(load(folder, "a.comp", {"A"}).text, "#version 450 core\n#endif\na\n");
 }
 
 TEST(ShaderSource, TakesEachIncludeOnceAndDropsPragmaOnce) {
@@ -42,9 +88,9 @@ TEST(ShaderSource, TakesEachIncludeOnceAndDropsPragmaOnce) {
     folder.write("a.comp", "#include \"shared/high.h\"\n#include \"shared/low.h\"\nint main_file;\n");
     const ShaderSource source = load(folder, "a.comp");
     EXPECT_EQ(source.files, (Files{"<defines>", "a.comp", "shared/high.h", "shared/low.h"}));
-    EXPECT_EQ(source.text, "#version 450 core\n#define TARN_GLSL 1\nint low;\nint high;\nint main_file;\n");
-    ASSERT_EQ(source.lines.size(), 5u);
-    EXPECT_EQ(translate_shader_log(source, "0:3(1): x\n0:4(1): x\n0:5(1): x\n"),
+    EXPECT_EQ(source.text, "#version 450 core\nint low;\nint high;\nint main_file;\n");
+    ASSERT_EQ(source.lines.size(), 4u);
+    EXPECT_EQ(translate_shader_log(source, "0:2(1): x\n0:3(1): x\n0:4(1): x\n"),
               "shared/low.h:2:1: x; shared/high.h:3:1: x; a.comp:3:1: x");
 }
 

@@ -19,11 +19,11 @@ endif()
 add_test(NAME viewer_in_xvfb
          COMMAND ${VIEWER_DISPLAY} bash ${CMAKE_CURRENT_SOURCE_DIR}/viewer.sh $<TARGET_FILE:tarn>
                  ${PROJECT_BINARY_DIR}/content/cornell.glb ${PROJECT_BINARY_DIR}/viewer_test)
-set_tests_properties(viewer_in_xvfb PROPERTIES LABELS gpu TIMEOUT 600 SKIP_RETURN_CODE 77)
+set_tests_properties(viewer_in_xvfb PROPERTIES LABELS gpu TIMEOUT 600 COST 600 SKIP_RETURN_CODE 77)
 add_test(NAME sandbox_in_xvfb
          COMMAND ${VIEWER_DISPLAY} bash ${CMAKE_CURRENT_SOURCE_DIR}/sandbox.sh $<TARGET_FILE:tarn-sandbox>
                  ${PROJECT_BINARY_DIR}/sandbox_test)
-set_tests_properties(sandbox_in_xvfb PROPERTIES LABELS gpu TIMEOUT 600 SKIP_RETURN_CODE 77)
+set_tests_properties(sandbox_in_xvfb PROPERTIES LABELS gpu TIMEOUT 600 COST 600 SKIP_RETURN_CODE 77)
 
 # A replay without a window: the same pictures each time.
 tarn_test(sandbox_replay LABEL gpu LIBRARIES tarn_play)

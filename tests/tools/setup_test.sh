@@ -33,6 +33,7 @@ make_checkout() {
         touch build/release/build.ninja"
     stand_in ninja 'echo "[1/2] Compiling"; echo "[2/2] Linking"'
     stand_in ctest 'true'
+    stand_in nproc 'echo 4'
     stand_in xdotool 'exit 1'
     printf '#!/bin/bash\necho "$PWD" "$@"\nexit 7\n' >"$SANDBOX/root/build/release/tarn"
     chmod +x "$SANDBOX/root/build/release/tarn"
@@ -156,7 +157,7 @@ test_arguments_of_tools_test_go_to_ctest() {
     make_checkout
     run_tool test -L unit
     expect "ctest" "$(tail -n 1 "$SANDBOX/calls")" \
-        "ctest --test-dir $SANDBOX/root/build/release --output-on-failure -j2 -L unit"
+        "ctest --test-dir $SANDBOX/root/build/release --output-on-failure -j6 -L unit"
 }
 
 test_progress_tells_percent_after_a_while_and_keeps_the_log() {
