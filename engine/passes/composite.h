@@ -7,7 +7,8 @@
 namespace tarn {
 
 // RGBA32F, W sr^-1 m^-2: emission, and the light that surfaces reflect. What is not finite becomes black with
-// w = 0 (else 1) and is counted. `indirect`: none where the plan has none.
+// w = 0 and is counted; else w is 1 + the share of the light that the surface emits. `indirect`: none where
+// the plan has none.
 Picture composite(const FrameContext& frame, const GBuffer& gbuffer, const ReflectedLight& direct,
                   const ReflectedLight& indirect);
 

@@ -292,6 +292,8 @@ struct AntialiasVariant {
     bool at_rest = false;   // nothing has moved or changed since the last frame
     bool enlarges = false;  // the picture is larger than what is rendered
     AntialiasMean mean = AntialiasMean::RADIANCE;
+    // Whether the light of lamps beyond white is kept apart.
+    bool splits_excess() const { return mean == AntialiasMean::RADIANCE; }
     Defines defines() const;
     static std::vector<AntialiasVariant> all();
 };

@@ -97,13 +97,10 @@ ReflectedLight Renderer::denoise(const FrameContext& frame, const GBuffer& gbuff
 // At the size of what is shown.
 Picture Renderer::finish(const FrameContext& frame, const GBuffer& gbuffer, const AntialiasInput& input) {
     if (!frame.plan.antialias.runs) return enlarge(frame, input.radiance);
-    KeptPicture kept{nullptr, frame.settings, frame.plan.features.motion};
-    kept.settings.antialias.scale = 1.0;  // the picture has its size at every scale
-    auto previous = find_previous(frame, history_.picture);
-    if (previous && previous->value().settings != kept.settings) previous.reset();
-    kept.picture = antialias(frame, gbuffer, input, previous);
-    history_.picture.keep(frame.frame, kept);
-    return kept.picture;
+    KeptPicture kept = antialias(frame, gbuffer, input, find_previous(frame, history_.picture));
+    const Picture shown = kept.shown;
+    history_.picture.keep(frame.frame, std::move(kept));
+    return shown;
 }
 
 // What moves starts over.

@@ -16,8 +16,13 @@
 //
 // Samples that are no light, or far above all around them and not light of their own surface, are left out and counted.
 //
+// What lamps emit beyond white has no noise, and little of it makes a pixel white: read again in every frame, it would
+// spread over all around a lamp. So that excess is kept out of the mean. In motion the picture shows this frame's alone, at
+// rest a mean of its own, whose count is the same for all pixels (`excess_share`).
+//
 // TARN_AT_REST: nothing has moved or changed since the last frame. TARN_ENLARGE: less is rendered than is shown.
-// TARN_DISPLAY_MEAN: the mean is that of compressed colours, of which white is the display's.
+// TARN_DISPLAY_MEAN: the mean is that of compressed colours, of which white is the display's: nothing exceeds it, and the
+// mean is the picture.
 #include "shared/interface/constants/antialias.h"
 #include "lib/frame.glsl"
 #include "lib/gbuffer.glsl"
@@ -29,11 +34,13 @@
 #include "lib/pixel_group.glsl"
 
 layout(binding = UNIT_PASS_A) uniform sampler2D frame_radiance;
-layout(binding = UNIT_PASS_B) uniform sampler2D last_picture;
-#ifdef TARN_DISPLAY_MEAN
+layout(binding = UNIT_PASS_B) uniform sampler2D last_mean;
 layout(binding = UNIT_PASS_C) uniform usamplerBuffer exposure;
+layout(binding = 0, rgba32f) writeonly uniform image2D out_mean;
+#ifndef TARN_DISPLAY_MEAN
+layout(binding = UNIT_PASS_E) uniform sampler2D last_picture;
+layout(binding = 1, rgba32f) writeonly uniform image2D out_picture;
 #endif
-layout(binding = 0, rgba32f) writeonly uniform image2D out_picture;
 
 const int CENTRE = 4;
 
@@ -48,15 +55,38 @@ vec2 sample_jitter() {
 
 // ---- What the picture is a mean of
 
-#ifdef TARN_DISPLAY_MEAN
 // Radiance near white on the display.
 float white() { return 1.0f / max(uintBitsToFloat(texelFetch(exposure, 0).x), 1e-30f); }
+
+#ifdef TARN_DISPLAY_MEAN
 vec3 to_mean(vec3 radiance) { return compress_colour(radiance, white()); }
 vec3 from_mean(vec3 mean) { return expand_colour(mean, white()); }
 #else
 vec3 to_mean(vec3 radiance) { return radiance; }
 vec3 from_mean(vec3 mean) { return mean; }
 #endif
+
+// ---- Samples
+
+bool is_usable(vec4 value) {
+#ifdef TARN_PLANT_UNSANITIZED
+    return true;
+#else
+    return value.w > 0.0f && is_usable_light(value.xyz);
+#endif
+}
+
+// ---- What lamps emit beyond white
+
+// How much of a sample's light that is; `value.w`: see passes/composite.comp.
+float excess_share(vec4 value) {
+#if !defined(TARN_DISPLAY_MEAN) && !defined(TARN_PLANT_LAMPS_WITH_A_PAST)
+    float emitted = value.w - 1.0f;
+    return max(0.0f, emitted - white() * ratio_or_zero(1.0f, luminance(value.xyz)));
+#else
+    return 0.0f;
+#endif
+}
 
 // ---- The past
 
@@ -68,13 +98,13 @@ struct Past {
 };
 
 // Pixels of the picture for a pixel of the frame.
-vec2 enlargement() { return vec2(imageSize(out_picture)) / vec2(frame_size.xy); }
+vec2 enlargement() { return vec2(imageSize(out_mean)) / vec2(frame_size.xy); }
 
 vec4 load_last(ivec2 pixel) {
-    return texelFetch(last_picture, clamp(pixel, ivec2(0), textureSize(last_picture, 0) - 1), 0);
+    return texelFetch(last_mean, clamp(pixel, ivec2(0), textureSize(last_mean, 0) - 1), 0);
 }
 
-// The last picture at `place`, in pixels from its corner: by the cubic, or linearly where contrast is high, so that it
+// The last mean at `place`, in pixels from its corner: by the cubic, or linearly where contrast is high, so that it
 // neither rings nor makes energy beside small lamps. The count is that of the pixel there.
 vec4 sample_last(vec2 place) {
     const float MOST_CONTRAST = 5.0f;
@@ -133,7 +163,7 @@ Past judge(Past past, Nearest present, vec2 motion, vec2 place) {
 Past find_past(ivec2 pixel, ivec2 nearest) {
     bool usable = has_previous != 0u;
 #ifndef TARN_PLANT_FOREIGN_SIZE
-    usable = usable && textureSize(last_picture, 0) == imageSize(out_picture);
+    usable = usable && textureSize(last_mean, 0) == imageSize(out_mean);
 #endif
     if (!usable) return Past(vec3(0.0f), 0.0f, true);
 #ifdef TARN_AT_REST
@@ -142,7 +172,7 @@ Past find_past(ivec2 pixel, ivec2 nearest) {
     Nearest present = find_nearest(nearest);
     vec2 motion = find_motion(present);
     vec2 place = vec2(pixel) + 0.5f - motion * enlargement();
-    vec2 size = vec2(textureSize(last_picture, 0));
+    vec2 size = vec2(textureSize(last_mean, 0));
     // What lies far outside has no integer.
     if (!(place.x >= 0.0f && place.y >= 0.0f && place.x < size.x && place.y < size.y))
         return Past(vec3(0.0f), 0.0f, true);
@@ -153,34 +183,33 @@ Past find_past(ivec2 pixel, ivec2 nearest) {
 
 // ---- The present
 
-// Samples of this frame around a pixel; black where they may not be used.
+// Samples of this frame around a pixel, without their excess; black where they may not be used.
 struct Around {
     vec3 radiance[TAPS];
+    vec3 excess[TAPS];
     float usable[TAPS];  // 1 or 0
+};
+
+// A sum, and the weight of the samples in it.
+struct Weighed {
+    vec3 sum;
+    float weight;
 };
 
 // What they come to for the pixel.
 struct Present {
-    vec3 sum;
-    float weight;
+    Weighed rest;
+    Weighed excess;
     bool complete;  // whether the nearest sample is a part of it
 };
 
-bool is_usable(vec4 value) {
-#ifdef TARN_PLANT_UNSANITIZED
-    return true;
-#else
-    return value.w > 0.0f && is_usable_light(value.xyz);
-#endif
-}
-
 // Whether light stands out from all around it without being light of the surface itself, such as a small lamp's.
-bool is_stray(ivec2 pixel, vec3 radiance, float greatest_around) {
+bool is_stray(vec4 value, float greatest_around) {
 #ifdef TARN_PLANT_UNSANITIZED
     return false;
 #else
-    vec3 reflected = radiance - load_layer(pixel, LAYER_EMISSION).xyz;
-    return exceeds_all_around(radiance, greatest_around) && exceeds_all_around(reflected, greatest_around);
+    vec3 reflected = (2.0f - value.w) * value.xyz;
+    return exceeds_all_around(value.xyz, greatest_around) && exceeds_all_around(reflected, greatest_around);
 #endif
 }
 
@@ -194,17 +223,20 @@ Around load_around(ivec2 pixel) {
         vec4 value = texelFetch(frame_radiance, inside, 0);
         bool usable = inside == place && is_usable(value);
         around.usable[tap] = usable ? 1.0f : 0.0f;
-        around.radiance[tap] = usable ? value.xyz : vec3(0.0f);
-        float light = luminance(around.radiance[tap]);
+        float share = excess_share(value);
+        around.radiance[tap] = usable ? (1.0f - share) * value.xyz : vec3(0.0f);
+        around.excess[tap] = usable ? share * value.xyz : vec3(0.0f);
+        float light = usable ? luminance(value.xyz) : 0.0f;
         second = max(second, min(light, greatest));
         brightest = light > greatest ? tap : brightest;
         greatest = max(greatest, light);
     }
     ivec2 place = clamp_to_frame(pixel + tap_offset(brightest));
-    if (is_stray(place, texelFetch(frame_radiance, place, 0).xyz, second)) {
+    if (is_stray(texelFetch(frame_radiance, place, 0), second)) {
         for (int tap = 0; tap < TAPS; ++tap) {
             around.usable[tap] = tap == brightest ? 0.0f : around.usable[tap];
             around.radiance[tap] = tap == brightest ? vec3(0.0f) : around.radiance[tap];
+            around.excess[tap] = tap == brightest ? vec3(0.0f) : around.excess[tap];
         }
     }
     return around;
@@ -231,60 +263,98 @@ vec3 clip_past(Past past, Around around) {
     return excess > 1.0f ? expand_colour(mean + (colour - mean) / excess, key) : past.radiance;
 }
 
-// `offset`: from the centre of the picture's pixel to the sample of the middle tap, in pixels of the frame. `known`:
-// samples behind the past.
-Present weigh(Around around, vec2 offset, float known) {
-    Present present = Present(vec3(0.0f), 0.0f, around.usable[CENTRE] > 0.0f);
+// Weight of all samples around a pixel behind which there are few, so that none is left without.
+float find_wide(bool complete, float known) {
 #ifdef TARN_ENLARGE
     const float WIDE = 0.02f;
-    float wide = WIDE * max(0.0f, 1.0f - known);
+    return WIDE * max(0.0f, 1.0f - known);
 #else
-    float wide = present.complete || known > 0.0f ? 0.0f : 1e-3f;
+    return complete || known > 0.0f ? 0.0f : 1e-3f;
 #endif
+}
+
+// `offset`: from the centre of the picture's pixel to the sample of the middle tap, in pixels of the frame. Samples
+// behind the past, and behind its excess: `known` and `known_excess`.
+Present weigh(Around around, vec2 offset, float known, float known_excess) {
+    Weighed none = Weighed(vec3(0.0f), 0.0f);
+    Present present = Present(none, none, around.usable[CENTRE] > 0.0f);
+    float wide = find_wide(present.complete, known);
+    float wide_excess = find_wide(present.complete, known_excess);
     for (int tap = 0; tap < TAPS; ++tap) {
         vec2 from_centre = offset + vec2(tap_offset(tap));
 #ifdef TARN_ENLARGE
-        float weight = sample_weight(from_centre * enlargement()) + wide * tent_weight(from_centre);
+        float narrow = sample_weight(from_centre * enlargement());
+        float tent = tent_weight(from_centre);
 #else
-        float weight = (tap == CENTRE ? 1.0f : 0.0f) + wide;
+        float narrow = tap == CENTRE ? 1.0f : 0.0f;
+        float tent = 1.0f;
 #endif
-        present.sum += weight * around.usable[tap] * to_mean(around.radiance[tap]);
-        present.weight += weight * around.usable[tap];
+        float weight = (narrow + wide * tent) * around.usable[tap];
+        present.rest.sum += weight * to_mean(around.radiance[tap]);
+        present.rest.weight += weight;
+#ifndef TARN_DISPLAY_MEAN
+        weight = (narrow + wide_excess * tent) * around.usable[tap];
+        present.excess.sum += weight * around.excess[tap];
+        present.excess.weight += weight;
+#endif
     }
     return present;
 }
 
 // The one sample of a pixel at rest, where the picture has the frame's size. Looks around it only where it stands out
 // from the past.
-Present load_sample(ivec2 pixel, Past past) {
+Present load_sample(ivec2 pixel, Past past, float known_excess) {
     vec4 value = texelFetch(frame_radiance, pixel, 0);
-    bool odd = !is_usable(value) || past.count == 0.0f ||
-               luminance(value.xyz) > STRAY_RATIO * luminance(past.radiance);
-    if (odd) return weigh(load_around(pixel), vec2(0.0f), past.count);
-    return Present(to_mean(value.xyz), 1.0f, true);
+    float share = excess_share(value);
+    vec3 rest = (1.0f - share) * value.xyz;
+    bool odd =
+        !is_usable(value) || past.count == 0.0f || luminance(rest) > STRAY_RATIO * luminance(past.radiance);
+    if (odd) return weigh(load_around(pixel), vec2(0.0f), past.count, known_excess);
+    return Present(Weighed(to_mean(rest), 1.0f), Weighed(share * value.xyz, 1.0f), true);
+}
+
+// ---- Both
+
+// A mean, to the bit where all values are equal.
+vec3 join(vec3 mean, float count, Weighed present) {
+    vec3 step = present.sum - present.weight * mean;
+    return mean + step * ratio_or_zero(1.0f, count + present.weight);
+}
+
+// Of the pixel, and the samples behind it: the past of what lamps emit beyond white.
+vec4 load_last_excess(ivec2 pixel, Past past) {
+#if !defined(TARN_DISPLAY_MEAN) && defined(TARN_AT_REST) && !defined(TARN_PLANT_LATEST_EXCESS)
+    if (past.count > 0.0f) {
+        vec4 texel = texelFetch(last_picture, pixel, 0);
+        return vec4(max(texel.xyz - past.radiance, vec3(0.0f)), texel.w);
+    }
+#endif
+    return vec4(0.0f);
 }
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, imageSize(out_picture)))) return;
+    if (any(greaterThanEqual(pixel, imageSize(out_mean)))) return;
     vec2 place = (vec2(pixel) + 0.5f) / enlargement() - sample_jitter();
     ivec2 nearest = clamp_to_frame(ivec2(floor(place)));
     Past past = find_past(pixel, nearest);
+    vec4 last_excess = load_last_excess(pixel, past);
 #if defined(TARN_AT_REST) && !defined(TARN_ENLARGE)
-    Present present = load_sample(pixel, past);
+    Present present = load_sample(pixel, past, last_excess.w);
 #else
     Around around = load_around(nearest);
 #if !defined(TARN_AT_REST) && !defined(TARN_PLANT_NO_CLIP)
     if (!past.trusted) past.radiance = clip_past(past, around);
 #endif
-    Present present = weigh(around, vec2(nearest) + 0.5f - place, past.count);
+    Present present = weigh(around, vec2(nearest) + 0.5f - place, past.count, last_excess.w);
 #endif
     if (!present.complete) count_event(COUNTER_BAD_PICTURE);
-    float total = past.count + present.weight;
-    // A mean of equal values is that value, to the bit.
-    vec3 before = to_mean(past.radiance);
-    vec3 step = present.sum - present.weight * before;
-    vec3 mean = before + step * ratio_or_zero(1.0f, total);
-    float count = add_to_count(past.count, present.weight, steady_count, greatest_count);
-    imageStore(out_picture, pixel, vec4(from_mean(mean), count));
+    vec3 mean = from_mean(join(to_mean(past.radiance), past.count, present.rest));
+    float count = add_to_count(past.count, present.rest.weight, steady_count, greatest_count);
+    imageStore(out_mean, pixel, vec4(mean, count));
+#ifndef TARN_DISPLAY_MEAN
+    vec3 excess = join(last_excess.xyz, last_excess.w, present.excess);
+    float excess_count = min(last_excess.w + present.excess.weight, greatest_count);
+    imageStore(out_picture, pixel, vec4(mean + excess, excess_count));
+#endif
 }

@@ -1,4 +1,5 @@
-// Joins what the stages of light found: emission + albedo x diffuse light + specular light.
+// Joins what the stages of light found: emission + albedo x diffuse light + specular light. The fourth number is 0 where
+// it is no light, else 1 + the share of it that the surface emits (antialiasing treats lamps apart).
 //
 // TARN_INDIRECT: with indirect light.
 // TARN_INDIRECT_ALONE: with nothing but it, where a debug view shows its samples.
@@ -30,10 +31,13 @@ void main() {
     specular += texelFetch(indirect_specular, pixel, 0).xyz;
 #endif
     vec3 radiance = load_layer(pixel, LAYER_DIFFUSE).xyz * diffuse + specular;
+    float emitted = 0.0f;
 #ifndef TARN_LIGHT_ALONE
-    radiance += load_layer(pixel, LAYER_EMISSION).xyz;
+    vec3 emission = load_layer(pixel, LAYER_EMISSION).xyz;
+    radiance += emission;
+    emitted = clamp(ratio_or_zero(luminance(emission), luminance(radiance)), 0.0f, 1.0f);
 #endif
     bool usable = is_finite3(radiance);
     if (!usable) count_event(COUNTER_BAD_RADIANCE);
-    imageStore(out_radiance, pixel, usable ? vec4(radiance, 1.0f) : vec4(0.0f));
+    imageStore(out_radiance, pixel, usable ? vec4(radiance, 1.0f + emitted) : vec4(0.0f));
 }

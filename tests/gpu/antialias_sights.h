@@ -10,6 +10,8 @@ namespace tarn::test {
 constexpr glm::ivec2 OUTPUT_PX(62, 43);  // no multiple of a group
 constexpr double SCALES[] = {1.0, 0.75, 0.5, 0.33};
 
+constexpr glm::vec3 WALK(0.031f, 0.017f, 0.0f);  // a frame: parts of a pixel of the wall, 0.12 m wide
+
 inline glm::vec3 meet_plane(const glm::vec3& origin, const glm::vec3& direction, float z) {
     return origin + direction * ((z - origin.z) / direction.z);
 }

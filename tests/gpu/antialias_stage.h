@@ -8,6 +8,7 @@
 #include "passes/antialias/jitter.h"
 #include "passes/enlarge.h"
 #include "shared/interface/constants/light_changes_cell.h"
+#include "shared/math/colour.h"
 #include "shared/math/display.h"
 
 namespace tarn::test {
@@ -78,15 +79,16 @@ class AntialiasStage {
             const std::vector<float> values(std::size_t(cells.x) * std::size_t(cells.y), *change);
             changes = context_.write_picture("test/changes", cells, GL_R32F, values);
         }
-        const Picture picture = antialias(frame, gbuffer, {small, changes}, history_.of_frame(frame_ - 1));
-        history_.keep(frame_, {picture, settings, true});
+        plan_.features.motion = true;
+        const KeptPicture kept = antialias(frame, gbuffer, {small, changes}, history_.of_frame(frame_ - 1));
+        history_.keep(frame_, kept);
         surfaces_.keep(frame_, gbuffer.surfaces);
         enlarged_ = settings.antialias.scale < 1.0 ? to_pixels(*enlarge(frame, small)) : Pixels();
         context_.recorder().end();
         previous_camera_ = camera_;
         previous_jitter_px_ = jitter_px_;
         ++frame_;
-        return to_pixels(*picture);
+        return to_pixels(*kept.shown);
     }
 
     // The same frame without the past, enlarged bilinearly; where the scale is less than 1.
@@ -136,7 +138,9 @@ class AntialiasStage {
                 diffuse.emplace_back(0.5f, 0.5f, 0.5f, s.alpha);
                 motion.emplace_back(s.previous, s.instance);
                 emission.emplace_back(s.emission, 0.0f);
-                radiance.emplace_back(s.radiance, 1.0f);
+                const float brightness = luminance(s.radiance);
+                radiance.emplace_back(s.radiance,
+                                      1.0f + (brightness > 0.0f ? luminance(s.emission) / brightness : 0.0f));
             }
         }
         const Surfaces surfaces = std::make_shared<SurfaceTable>(size_px(), BufferUse::DYNAMIC);

@@ -16,11 +16,9 @@ constexpr double STEADY_COUNT = 10.0;
 constexpr double LEAST_STEADY_COUNT = 4.0;
 constexpr float GREATEST_COUNT = 64.0f;
 
-}  // namespace
-
-Picture antialias(const FrameContext& frame, const GBuffer& gbuffer, const AntialiasInput& input,
-                  const std::optional<Previous<KeptPicture>>& previous) {
-    const Picture& radiance = input.radiance;
+AntialiasConstants find_constants(const FrameContext& frame, const GBuffer& gbuffer,
+                                  const AntialiasInput& input,
+                                  const std::optional<Previous<KeptPicture>>& previous) {
     const double scale = frame.settings.antialias.scale;
     AntialiasConstants constants{};
     constants.steady_count = float(std::max(LEAST_STEADY_COUNT, STEADY_COUNT * scale * scale));
@@ -29,25 +27,42 @@ Picture antialias(const FrameContext& frame, const GBuffer& gbuffer, const Antia
     constants.trusts_past = gbuffer.previous && (!frame.scene_changed || input.changes) ? 1u : 0u;
     constants.has_changes = input.changes ? 1u : 0u;
     constants.has_previous_motion = previous && previous->value().knows_motion ? 1u : 0u;
-    const AntialiasMean mean = frame.settings.antialias.mean;
-    Exposure exposure;
-    if (mean == AntialiasMean::DISPLAY) exposure = find_exposure(frame, radiance, {}, std::nullopt);
-    const Picture picture = frame.recorder.take_picture("antialias", frame.output_px, GL_RGBA32F);
+    return constants;
+}
+
+}  // namespace
+
+KeptPicture antialias(const FrameContext& frame, const GBuffer& gbuffer, const AntialiasInput& input,
+                      std::optional<Previous<KeptPicture>> previous) {
+    const AntialiasVariant variant{!frame.has_moved, frame.output_px != frame.size_px,
+                                   frame.settings.antialias.mean};
+    KeptPicture kept;
+    kept.settings = frame.settings;
+    kept.settings.antialias.scale = 1.0;  // the picture has its size at every scale
+    kept.knows_motion = frame.plan.features.motion;
+    if (previous && previous->value().settings != kept.settings) previous.reset();
+
+    const Exposure exposure = find_exposure(frame, input.radiance, {}, std::nullopt);
+    kept.mean = kept.shown = frame.recorder.take_picture("antialias", frame.output_px, GL_RGBA32F);
     PassRecorder pass = frame.pass("antialias");
     read_gbuffer(pass, gbuffer)
-        .constants(constants)
-        .read(UNIT_PASS_A, radiance)
-        .write_image(0, *picture)
+        .constants(find_constants(frame, gbuffer, input, previous))
+        .read(UNIT_PASS_A, input.radiance)
+        .read(UNIT_PASS_C, exposure)
+        .write_image(0, *kept.mean)
         .count(BLOCK_COUNTERS, frame.counters);
-    if (previous) pass.read(UNIT_PASS_B, *previous, previous->value().picture);
-    if (exposure) pass.read(UNIT_PASS_C, exposure);
+    if (variant.splits_excess()) {
+        kept.shown = frame.recorder.take_picture("antialias/shown", frame.output_px, GL_RGBA32F);
+        pass.write_image(1, *kept.shown);
+        if (variant.at_rest && previous) pass.read(UNIT_PASS_E, *previous, previous->value().shown);
+    }
+    if (previous) pass.read(UNIT_PASS_B, *previous, previous->value().mean);
     if (input.changes) pass.read(UNIT_PASS_D, input.changes);
     if (gbuffer.previous) {
         pass.read(UNIT_PREVIOUS_SURFACE, *gbuffer.previous, gbuffer.previous->value()->texels());
     }
-    const AntialiasVariant variant{!frame.has_moved, frame.output_px != frame.size_px, mean};
     pass.dispatch(frame.compute(variant), frame.output_px);
-    return picture;
+    return kept;
 }
 
 }  // namespace tarn

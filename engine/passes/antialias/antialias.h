@@ -8,22 +8,23 @@
 
 namespace tarn {
 
-// The picture of the last frames, and by which settings it was made: one of others is no past, but for
+// The pictures of the last frames, and by which settings they were made: those of others are no past, but for
 // their scale.
 struct KeptPicture {
-    Picture picture;
+    Picture mean;   // what the next frame joins; w: how many samples stand behind a pixel
+    Picture shown;  // with what lamps emit beyond white; w: how many samples stand behind that; or the same
     RenderSettings settings;
     bool knows_motion = false;  // whether its frame's surfaces know where they were before
 };
 
 struct AntialiasInput {
-    Picture radiance;  // RGBA32F of the frame's size; w = 0: not to be used
+    Picture radiance;  // what composite() found
     Picture changes;   // find_light_changes; none: not known
 };
 
-// `input` joined with the picture of the last frames, at the output's size; w: how many samples stand behind
-// a pixel. `previous`: what the last frame kept.
-Picture antialias(const FrameContext& frame, const GBuffer& gbuffer, const AntialiasInput& input,
-                  const std::optional<Previous<KeptPicture>>& previous);
+// `input` joined with the picture of the last frames, at the output's size, and what the next frame needs of
+// it. `previous`: what the last frame kept.
+KeptPicture antialias(const FrameContext& frame, const GBuffer& gbuffer, const AntialiasInput& input,
+                      std::optional<Previous<KeptPicture>> previous);
 
 }  // namespace tarn
