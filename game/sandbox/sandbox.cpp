@@ -31,16 +31,22 @@ Sandbox::Sandbox(Window& window, Scene scene, const SandboxOptions& options)
     look_.settings = options.settings;
     look_.preset = options.preset;
     facts_.shows_help = true;
-    const Size size = window.framebuffer_size();
-    record_.scene = options.scene_name;
-    record_.level_hash = stage_.level_hash();
-    record_.width_px = std::max(1, size.width_px);
-    record_.height_px = std::max(1, size.height_px);
-    record_.seed = options.seed;
-    for (const SettingInfo& row : Settings::list())
-        record_.settings.emplace_back(row.name, options.settings.get(row.name));
+    if (!options.record.empty()) start_record();
     window_.set_vsync(true);
     controls_.capture_mouse(true);
+}
+
+void Sandbox::start_record() {
+    const Size size = window_.framebuffer_size();
+    Replay head;
+    head.scene = options_.scene_name;
+    head.level_hash = stage_.level_hash();
+    head.width_px = std::max(1, size.width_px);
+    head.height_px = std::max(1, size.height_px);
+    head.seed = options_.seed;
+    for (const SettingInfo& row : Settings::list())
+        head.settings.emplace_back(row.name, options_.settings.get(row.name));
+    recorder_ = std::make_unique<ReplayRecorder>(options_.record, head);
 }
 
 void Sandbox::run() {
@@ -49,6 +55,7 @@ void Sandbox::run() {
         window_.poll_events();
         const double dt_s = seconds_since(last);
         last = Clock::now();
+        if (recorder_) recorder_->flush_when_due();
         if (window_.is_minimized()) {
             std::this_thread::sleep_for(std::chrono::milliseconds(50));
             continue;
@@ -56,7 +63,7 @@ void Sandbox::run() {
         follow_window_size();
         show_frame(dt_s);
     }
-    if (!options_.record.empty()) write_record();
+    if (recorder_) recorder_->end(compute_hash(stage_.state()));
 }
 
 void Sandbox::follow_window_size() {
@@ -108,7 +115,7 @@ void Sandbox::handle_controls(const Controls& controls) {
 
 void Sandbox::step(const StepInput& input) {
     stage_.step(input);
-    if (!options_.record.empty()) record_.steps.push_back(input);
+    if (recorder_) recorder_->add(input);
 }
 
 void Sandbox::play(const Controls& controls, double dt_s) {
@@ -164,12 +171,6 @@ void Sandbox::save_screenshot() {
 void Sandbox::report(const std::string& message) {
     facts_.message = message;
     reported_at_ = Clock::now();
-}
-
-void Sandbox::write_record() const {
-    Replay record = record_;
-    record.state_hash = compute_hash(stage_.state());
-    save_replay(options_.record, record);
 }
 
 }  // namespace game

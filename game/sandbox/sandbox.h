@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "../play/replay_file.h"
+#include "../play/replay_recorder.h"
 #include "../recent_timings.h"
 #include "../widgets.h"
 #include "controls.h"
@@ -23,13 +23,14 @@ struct SandboxOptions {
     std::string preset;
     std::uint32_t seed = 0;
     int threads = 0;               // as for EngineOptions
-    std::filesystem::path record;  // written when it ends; empty: nothing
+    std::filesystem::path record;  // written while it is played; empty: nothing
     std::function<bool()> stop;    // asked before each frame; true: quit. Empty: never
 };
 
 class Sandbox {
   public:
-    // Draws in the window, which must outlive it. Error where its OpenGL does not do.
+    // Draws in the window, which must outlive it. Error where its OpenGL does not do, or the record cannot be
+    // written.
     Sandbox(Window& window, Scene scene, const SandboxOptions& options);
 
     // Until the user quits. Error where the record cannot be written.
@@ -47,7 +48,7 @@ class Sandbox {
     void update_title();
     void save_screenshot();
     void report(const std::string& message);
-    void write_record() const;
+    void start_record();
 
     SandboxOptions options_;
     Window& window_;
@@ -60,10 +61,10 @@ class Sandbox {
     SandboxSettings look_;
     SandboxFacts facts_;
     RecentTimings timings_;
-    Replay record_;
-    StepInput waiting_;      // pressed, and no step has come since
-    double behind_s_ = 0.0;  // of the simulation
-    double loop_s_ = 0.0;    // from frame to frame, smoothed
+    std::unique_ptr<ReplayRecorder> recorder_;  // null: nothing is recorded
+    StepInput waiting_;                         // pressed, and no step has come since
+    double behind_s_ = 0.0;                     // of the simulation
+    double loop_s_ = 0.0;                       // from frame to frame, smoothed
     std::uint32_t frame_ = 0;
     bool has_focus_ = false;
     Size wanted_size_;  // and since when

@@ -3,7 +3,7 @@
 
 #include <fstream>
 
-#include "game/play/replay_file.h"
+#include "game/play/replay_recorder.h"
 #include "game/play/simulation.h"
 #include "support/play_levels.h"
 #include "support/process.h"
@@ -108,6 +108,18 @@ TEST_F(SandboxReplay, WhatIsThrownIsSeen) {
     EXPECT_NE(walking[2], throwing[2]);
 }
 
+TEST_F(SandboxReplay, WhatIsCutOffIsPlayedAsFarAsItGoes) {
+    Replay replay = *replay_;
+    replay.is_complete = false;
+    replay.steps.resize(EVERY);
+    game::save_replay(folder_.file("a.replay"), replay);
+    const ProcessResult result = play("cut");
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.error_lines(), 1) << result.err;
+    EXPECT_NE(result.err.find("a.replay: cut off after 8 steps"), std::string::npos) << result.err;
+    EXPECT_EQ(read_frames("cut").size(), 2u);
+}
+
 TEST_F(SandboxReplay, WhatIsBrokenIsNamedInOneLine) {
     Replay replay = *replay_;
     replay.level_hash ^= 1;
@@ -118,7 +130,7 @@ TEST_F(SandboxReplay, WhatIsBrokenIsNamedInOneLine) {
     game::save_replay(folder_.file("a.replay"), replay);
     expect_error("no setting 'colour'");
     std::ofstream(folder_.file("a.replay")) << "tarn-sandbox-replay 1\nscene x\n";
-    expect_error("line 3: the line 'end' is missing");
+    expect_error("line 3: the file is cut off before its first step");
 }
 
 }  // namespace
