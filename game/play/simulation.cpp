@@ -6,6 +6,7 @@
 #include "../vectors.h"
 #include "balls.h"
 #include "character.h"
+#include "crates.h"
 #include "hash.h"
 #include "lantern_rules.h"
 #include "physics.h"
@@ -36,7 +37,7 @@ double sweep_ball(Physics& physics, const btVector3& from, const btVector3& to) 
     const btSphereShape ball{btScalar(BALL_RADIUS_M)};
     btCollisionWorld::ClosestConvexResultCallback hit(from, to);
     hit.m_collisionFilterGroup = GROUP_BALL;
-    hit.m_collisionFilterMask = GROUP_LEVEL;
+    hit.m_collisionFilterMask = GROUP_LEVEL | GROUP_CRATE;
     btTransform start = btTransform::getIdentity(), end = btTransform::getIdentity();
     start.setOrigin(from);
     end.setOrigin(to);
@@ -74,6 +75,7 @@ struct Simulation::Parts {
           start_pitch_rad(std::clamp(level.start_pitch_rad, -STEEPEST_LOOK_RAD, STEEPEST_LOOK_RAD)),
           character(physics, start_feet),
           balls(physics, btScalar(lowest_m)),
+          crates(physics, level, btScalar(lowest_m)),
           lanterns(level.lanterns) {
         restart();
     }
@@ -81,6 +83,7 @@ struct Simulation::Parts {
     void restart() {
         character.teleport(start_feet);
         balls.clear();
+        crates.restart();
         state = {};
         state.player.yaw_rad = start_yaw_rad;
         state.player.pitch_rad = start_pitch_rad;
@@ -125,8 +128,10 @@ struct Simulation::Parts {
         constexpr auto DT_S = btScalar(STEP_S / SUBSTEPS);
         for (int i = 0; i < SUBSTEPS; ++i) {
             character.step(walk, DT_S);
+            crates.push(character, DT_S);
             physics.world().stepSimulation(DT_S, 0);
             balls.hold();
+            crates.hold();
             walk.jump = false;
         }
         if (character.feet().y() < lowest_m) character.teleport(start_feet);
@@ -138,6 +143,7 @@ struct Simulation::Parts {
         state.player.is_on_ground = character.is_on_ground();
         state.player.is_crouching = character.is_crouching();
         balls.describe(state.balls);
+        crates.describe(state.crates);
     }
 
     Physics physics;
@@ -147,6 +153,7 @@ struct Simulation::Parts {
     double start_pitch_rad;
     Character character;
     Balls balls;
+    Crates crates;
     LanternRules lanterns;
     PlayState state;
 };
@@ -176,6 +183,9 @@ std::uint64_t compute_hash(const PlayState& state) {
     const auto add_point = [&](const Vec3& p) {
         for (const double value : {p.x, p.y, p.z}) hash.add(value);
     };
+    const auto add_turn = [&](const Rotation& r) {
+        for (const double value : {r.x, r.y, r.z, r.w}) hash.add(value);
+    };
     hash.add(state.step);
     const PlayerState& player = state.player;
     add_point(player.feet);
@@ -185,8 +195,12 @@ std::uint64_t compute_hash(const PlayState& state) {
         hash.add(int(ball.is_alive) + 2 * ball.color);
         add_point(ball.position);
         add_point(ball.velocity);
-        const Rotation& r = ball.rotation;
-        for (const double value : {r.x, r.y, r.z, r.w}) hash.add(value);
+        add_turn(ball.rotation);
+    }
+    for (const CrateState& crate : state.crates) {
+        add_point(crate.position);
+        add_point(crate.velocity);
+        add_turn(crate.rotation);
     }
     for (const LanternState& lantern : state.lanterns) {
         hash.add(int(lantern.is_lit) + 2 * lantern.color);

@@ -1,5 +1,5 @@
-// The sandbox's world: a person who walks, glowing balls, lanterns. Its state is a function of the level and
-// of the inputs so far, to the bit.
+// The sandbox's world: a person who walks, glowing balls, crates, lanterns. Its state is a function of the
+// level and of the inputs so far, to the bit.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,8 @@ inline constexpr int STEPS_PER_S = 60;
 inline constexpr double STEP_S = 1.0 / STEPS_PER_S;
 inline constexpr int BALL_LIMIT = 50;  // a further one takes the place of the oldest
 inline constexpr double BALL_RADIUS_M = 0.15;
-inline constexpr int PLAY_COLORS = 8;  // of balls and lanterns
+inline constexpr double CRATE_HALF_M = 0.3;  // of their edge
+inline constexpr int PLAY_COLORS = 8;        // of balls and lanterns
 
 struct PlayerState {
     Vec3 feet;  // world space, metres
@@ -36,6 +37,12 @@ struct BallState {
     int color = 0;  // below PLAY_COLORS
 };
 
+struct CrateState {
+    Vec3 position;  // its middle, world space, metres
+    Rotation rotation;
+    Vec3 velocity;  // m/s
+};
+
 struct LanternState {
     bool is_lit = true;
     int color = -1;           // below PLAY_COLORS; -1: the scene's own
@@ -46,6 +53,7 @@ struct PlayState {
     std::uint64_t step = 0;  // since the start, or since the last restart
     PlayerState player;
     std::vector<BallState> balls;        // BALL_LIMIT
+    std::vector<CrateState> crates;      // always as many
     std::vector<LanternState> lanterns;  // as in the level
     int aimed_lantern = -1;              // within reach, in the middle of the view; -1: none
     int next_color = 0;                  // of the next ball

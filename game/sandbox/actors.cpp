@@ -9,7 +9,8 @@ constexpr int BALL_SUBDIVISIONS = 1;  // 80 triangles, each of which is a light
 constexpr double PARKED_BELOW_M = 0.6;
 constexpr double PARKED_APART_M = 0.3;
 
-bool is_same_place(const BallState& a, const BallState& b) {
+template <class State>
+bool is_same_place(const State& a, const State& b) {
     return a.position.x == b.position.x && a.position.y == b.position.y && a.position.z == b.position.z &&
            a.rotation.x == b.rotation.x && a.rotation.y == b.rotation.y && a.rotation.z == b.rotation.z &&
            a.rotation.w == b.rotation.w;
@@ -21,6 +22,15 @@ Surface ball_surface(const BallState& ball) {
     surface.base_color = {0.4, 0.4, 0.4};
     surface.roughness = 0.6;
     if (ball.is_alive) surface.emission = radiance;
+    return surface;
+}
+
+// Oiled wood; no two of the same tree.
+Surface crate_surface(std::size_t index) {
+    const double shade = 0.8 + 0.1 * double(index % 5);
+    Surface surface;
+    surface.base_color = Vec3{0.34, 0.19, 0.085} * shade;
+    surface.roughness = 0.55;
     return surface;
 }
 
@@ -45,13 +55,18 @@ Vec3 lantern_emission(const Vec3& own, const LanternState& lantern) {
 
 }  // namespace
 
-Actors::Actors(Scene& scene, const Level& level) : scene_(scene) {
+Actors::Actors(Scene& scene, const Level& level, const PlayState& start) : scene_(scene) {
     for (int i = 0; i < BALL_LIMIT; ++i) {
         Ball ball;
         ball.parked = parking_place(level, i);
         ball.node = scene.add_sphere(BALL_RADIUS_M, BALL_SUBDIVISIONS, ball_surface(ball.shown), ball.parked);
         ball.material = scene.materials(ball.node).at(0);
         balls_.push_back(ball);
+    }
+    for (const CrateState& state : start.crates) {
+        const Vec3 half{CRATE_HALF_M, CRATE_HALF_M, CRATE_HALF_M};
+        const Surface wood = crate_surface(crates_.size());
+        crates_.push_back({scene.add_box(half, wood, {state.position, state.rotation}), state});
     }
     for (const Lantern& lantern : level.lanterns) {
         scene.separate_materials(lantern.node);
@@ -77,6 +92,12 @@ void Actors::show_ball(Ball& ball, const BallState& state) {
     ball.shown = state;
 }
 
+void Actors::show_crate(Crate& crate, const CrateState& state) {
+    if (!is_same_place(state, crate.shown))
+        scene_.set_transform(crate.node, {state.position, state.rotation});
+    crate.shown = state;
+}
+
 void Actors::show_lantern(LanternActor& lantern, const LanternState& state) {
     const LanternState& shown = lantern.shown;
     if (state.is_lit == shown.is_lit && state.color == shown.color && state.brightness == shown.brightness)
@@ -91,6 +112,7 @@ void Actors::show_lantern(LanternActor& lantern, const LanternState& state) {
 
 void Actors::show(const PlayState& state) {
     for (std::size_t i = 0; i < balls_.size(); ++i) show_ball(balls_[i], state.balls[i]);
+    for (std::size_t i = 0; i < crates_.size(); ++i) show_crate(crates_[i], state.crates[i]);
     for (std::size_t i = 0; i < lanterns_.size(); ++i) show_lantern(lanterns_[i], state.lanterns[i]);
 }
 

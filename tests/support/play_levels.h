@@ -56,6 +56,10 @@ class LevelBuilder {
         level_.lanterns.push_back({{}, position, is_dead});
         return *this;
     }
+    LevelBuilder& crate(const game::Vec3& above, double yaw_rad = 0.0) {
+        level_.crates.push_back({above, yaw_rad});
+        return *this;
+    }
     const game::Level& level() const { return level_; }
 
   private:
