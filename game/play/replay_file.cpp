@@ -21,7 +21,8 @@ struct Key {
     bool StepInput::*flag;
 };
 constexpr Key KEYS[] = {{'r', &StepInput::run},        {'c', &StepInput::crouch}, {'j', &StepInput::jump},
-                        {'t', &StepInput::throw_ball}, {'u', &StepInput::use},    {'x', &StepInput::restart}};
+                        {'t', &StepInput::throw_ball}, {'u', &StepInput::use},    {'x', &StepInput::restart},
+                        {'f', &StepInput::torch}};
 
 std::string describe_keys(const StepInput& input) {
     std::string letters;

@@ -11,8 +11,8 @@
 //
 // A file that is cut off, as by a program that was killed, holds what was done until then: the lines that are
 // whole. It has no state to hold its end against.
-// COUNT steps had the same input. KEYS: those letters of "rcjtux" that were down (run, crouch, jump, throw,
-// use, restart), "-" for none.
+// COUNT steps had the same input. KEYS: those letters of "rcjtuxf" that were down (run, crouch, jump, throw,
+// use, restart, torch), "-" for none.
 #pragma once
 
 #include <cstddef>

@@ -10,6 +10,7 @@
 #include "hash.h"
 #include "lantern_rules.h"
 #include "physics.h"
+#include "torch.h"
 
 namespace game {
 namespace {
@@ -89,6 +90,7 @@ struct Simulation::Parts {
         state.player.pitch_rad = start_pitch_rad;
         lanterns.restart(state);
         describe();
+        hold_torch();
     }
 
     void look(const StepInput& input) {
@@ -121,6 +123,17 @@ struct Simulation::Parts {
         const btVector3 hand = eye + reach * btScalar(sweep_ball(physics, eye, eye + reach));
         balls.add(hand, to_bullet(ahead * THROW_M_S), state.next_color);
         state.next_color = (state.next_color + 1) % PLAY_COLORS;
+    }
+
+    // As a ball in the hand, so that its flame is on this side of walls.
+    void hold_torch() {
+        TorchState& torch = state.torch;
+        torch.position = state.player.eye();
+        torch.brightness = torch.is_lit ? compute_flicker(state.step) : 0.0;
+        if (!torch.is_lit) return;
+        const Vec3 reach = compute_torch_reach(state.player.yaw_rad, state.player.pitch_rad);
+        const btVector3 eye = physics.to_local(torch.position);
+        torch.position = torch.position + reach * sweep_ball(physics, eye, eye + to_bullet(reach));
     }
 
     void move(const StepInput& input) {
@@ -167,6 +180,8 @@ void Simulation::step(const StepInput& input) {
     parts_->move(input);
     ++parts_->state.step;
     parts_->describe();
+    if (input.torch) parts_->state.torch.is_lit = !parts_->state.torch.is_lit;
+    parts_->hold_torch();
     parts_->lanterns.step(input, look_direction(parts_->state.player), parts_->state);
     if (input.throw_ball) {
         parts_->throw_ball();
@@ -202,6 +217,9 @@ std::uint64_t compute_hash(const PlayState& state) {
         add_point(crate.velocity);
         add_turn(crate.rotation);
     }
+    add_point(state.torch.position);
+    hash.add(state.torch.brightness);
+    hash.add(int(state.torch.is_lit));
     for (const LanternState& lantern : state.lanterns) {
         hash.add(int(lantern.is_lit) + 2 * lantern.color);
         hash.add(lantern.brightness);

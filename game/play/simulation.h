@@ -49,17 +49,24 @@ struct LanternState {
     double brightness = 1.0;  // relative to the scene's own
 };
 
+struct TorchState {
+    bool is_lit = false;
+    Vec3 position;            // of its flame, world space, metres
+    double brightness = 0.0;  // relative to its mean; 0: not lit
+};
+
 struct PlayState {
     std::uint64_t step = 0;  // since the start, or since the last restart
     PlayerState player;
     std::vector<BallState> balls;        // BALL_LIMIT
     std::vector<CrateState> crates;      // always as many
     std::vector<LanternState> lanterns;  // as in the level
-    int aimed_lantern = -1;              // within reach, in the middle of the view; -1: none
-    int next_color = 0;                  // of the next ball
-    int dead_count = 0;                  // lanterns that were dead
-    int relit_count = 0;                 // and are lit now
-    std::uint64_t finished_step = 0;     // when all were lit for the first time; 0: not yet
+    TorchState torch;
+    int aimed_lantern = -1;           // within reach, in the middle of the view; -1: none
+    int next_color = 0;               // of the next ball
+    int dead_count = 0;               // lanterns that were dead
+    int relit_count = 0;              // and are lit now
+    std::uint64_t finished_step = 0;  // when all were lit for the first time; 0: not yet
 };
 
 // Of every number in it.

@@ -10,7 +10,8 @@ struct StepInput {
     bool crouch = false;
     bool jump = false;  // this and the next ones: went down since the last step
     bool throw_ball = false;
-    bool use = false;  // light or put out the lantern that is looked at
+    bool use = false;    // light or put out the lantern that is looked at
+    bool torch = false;  // take it out or put it away
     bool restart = false;
     int look_right = 0;  // mouse movement, pixels
     int look_down = 0;

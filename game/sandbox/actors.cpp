@@ -34,6 +34,19 @@ Surface crate_surface(std::size_t index) {
     return surface;
 }
 
+Transform place_at(const Vec3& position) {
+    Transform place;
+    place.translation = position;
+    return place;
+}
+
+// A flame without extent: nothing of it is in the picture, however close it is to the eye.
+Light torch_light(const TorchState& torch) {
+    Light light;
+    light.intensity = Vec3{7.4, 3.7, 1.4} * torch.brightness;
+    return light;
+}
+
 // In a row below the middle of the level.
 Transform parking_place(const Level& level, int index) {
     const Box& b = level.bounds;
@@ -68,6 +81,8 @@ Actors::Actors(Scene& scene, const Level& level, const PlayState& start) : scene
         const Surface wood = crate_surface(crates_.size());
         crates_.push_back({scene.add_box(half, wood, {state.position, state.rotation}), state});
     }
+    torch_ = scene.add_light(torch_light(start.torch), place_at(start.torch.position));
+    torch_shown_ = start.torch;
     for (const Lantern& lantern : level.lanterns) {
         scene.separate_materials(lantern.node);
         LanternActor actor;
@@ -92,6 +107,13 @@ void Actors::show_ball(Ball& ball, const BallState& state) {
     ball.shown = state;
 }
 
+void Actors::show_torch(const TorchState& state) {
+    if (!state.is_lit && !torch_shown_.is_lit) return;
+    scene_.set_transform(torch_, place_at(state.position));
+    if (state.brightness != torch_shown_.brightness) scene_.set_light(torch_, torch_light(state));
+    torch_shown_ = state;
+}
+
 void Actors::show_crate(Crate& crate, const CrateState& state) {
     if (!is_same_place(state, crate.shown))
         scene_.set_transform(crate.node, {state.position, state.rotation});
@@ -111,6 +133,7 @@ void Actors::show_lantern(LanternActor& lantern, const LanternState& state) {
 }
 
 void Actors::show(const PlayState& state) {
+    show_torch(state.torch);
     for (std::size_t i = 0; i < balls_.size(); ++i) show_ball(balls_[i], state.balls[i]);
     for (std::size_t i = 0; i < crates_.size(); ++i) show_crate(crates_[i], state.crates[i]);
     for (std::size_t i = 0; i < lanterns_.size(); ++i) show_lantern(lanterns_[i], state.lanterns[i]);

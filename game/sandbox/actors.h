@@ -1,5 +1,5 @@
-// The scene's part in the play: balls, crates and lanterns, as the simulation says where and how bright they
-// are.
+// The scene's part in the play: balls, crates, lanterns and a torch, as the simulation says where and how
+// bright they are.
 #pragma once
 
 #include <vector>
@@ -40,6 +40,7 @@ class Actors {
     };
 
     void show_ball(Ball& ball, const BallState& state);
+    void show_torch(const TorchState& state);
     void show_crate(Crate& crate, const CrateState& state);
     void show_lantern(LanternActor& lantern, const LanternState& state);
 
@@ -47,6 +48,8 @@ class Actors {
     std::vector<Ball> balls_;
     std::vector<Crate> crates_;
     std::vector<LanternActor> lanterns_;
+    Node torch_;
+    TorchState torch_shown_;
 };
 
 }  // namespace game

@@ -36,6 +36,7 @@ void ControlReader::read_play(StepInput& play) {
     play.jump = input_.was_pressed(GLFW_KEY_SPACE);
     play.throw_ball = input_.was_clicked(GLFW_MOUSE_BUTTON_LEFT);
     play.use = input_.was_pressed(GLFW_KEY_E);
+    play.torch = input_.was_pressed(GLFW_KEY_F);
     play.restart = input_.was_pressed(GLFW_KEY_R);
     Vec2 way = input_.take_mouse_way();
     if (unsettled_looks_ > 0) {
@@ -81,6 +82,7 @@ StepInput with_presses(const StepInput& input, const StepInput& earlier) {
     both.jump = input.jump || earlier.jump;
     both.throw_ball = input.throw_ball || earlier.throw_ball;
     both.use = input.use != earlier.use;  // twice is back again
+    both.torch = input.torch != earlier.torch;
     both.restart = input.restart || earlier.restart;
     both.look_right += earlier.look_right;
     both.look_down += earlier.look_down;

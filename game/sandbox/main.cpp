@@ -106,7 +106,8 @@ int run(int argc, char** argv) {
     CLI::App app{"Walk through a scene at night, throw glowing balls, relight dead lanterns."};
     app.footer(
         "W A S D walk, Shift runs, Space jumps, C crouches; the mouse looks, its left button throws a ball.\n"
-        "E: light a lantern. F1: all keys. F2: panel. F12: screenshot. Escape: free the mouse, then quit.");
+        "E: light a lantern. F: a torch. F1: all keys. F2: panel. F12: screenshot. Escape: free the mouse, "
+        "then quit.");
     Options options;
     add_options(app, options);
     try {

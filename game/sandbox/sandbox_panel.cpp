@@ -22,6 +22,7 @@ constexpr const char* HELP =
     "C, Ctrl    crouch          R          start again\n"
     "Left button  throw a glowing ball; the wheel chooses its colour\n"
     "E          light the lantern you look at, or put it out\n"
+    "F          take out a torch, or put it away\n"
     "Wheel      recolour that lantern; with Shift: dim it\n"
     "F1 help   F2 panel   F11 fullscreen   F12 screenshot\n"
     "Escape     free the mouse, then quit\n"

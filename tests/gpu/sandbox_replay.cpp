@@ -108,6 +108,20 @@ TEST_F(SandboxReplay, WhatIsThrownIsSeen) {
     EXPECT_NE(walking[2], throwing[2]);
 }
 
+TEST_F(SandboxReplay, ATorchLightsWhatIsNear) {
+    Replay dark = record_walk(EVERY, false), lit = dark;
+    dark.is_complete = lit.is_complete = false;  // the state has the torch in it
+    lit.steps[0].torch = true;
+    for (const bool torch : {false, true}) {
+        game::save_replay(folder_.file("a.replay"), torch ? lit : dark);
+        const ProcessResult result = play(torch ? "lit" : "dark");
+        ASSERT_EQ(result.status, 0) << result.err;
+    }
+    ASSERT_EQ(read_frames("lit").size(), 2u);
+    EXPECT_EQ(read_frames("lit")[0], read_frames("dark")[0]);
+    EXPECT_NE(read_frames("lit")[1], read_frames("dark")[1]);
+}
+
 TEST_F(SandboxReplay, WhatIsCutOffIsPlayedAsFarAsItGoes) {
     Replay replay = *replay_;
     replay.is_complete = false;

@@ -102,6 +102,7 @@ class RandomPlayer {
         input_.jump = random_() % 40 == 0;
         input_.throw_ball = random_() % 30 == 0;
         input_.use = random_() % 20 == 0;
+        input_.torch = random_() % 200 == 0;
         input_.wheel = random_() % 50 == 0 ? int(random_() % 3) - 1 : 0;
         return input_;
     }

@@ -194,6 +194,71 @@ TEST(Relighting, TheWheelRecoloursAndDimsWhatIsLookedAtElseTheNextBall) {
     EXPECT_EQ(simulation.state().next_color, 3);
 }
 
+TEST(Torch, IsTakenOutAndPutAway) {
+    Simulation simulation(LevelBuilder().floor(20.0).level());
+    run_steps(simulation, 30);
+    EXPECT_FALSE(simulation.state().torch.is_lit);
+    EXPECT_EQ(simulation.state().torch.brightness, 0.0);
+    StepInput torch;
+    torch.torch = true;
+    simulation.step(torch);
+    EXPECT_TRUE(simulation.state().torch.is_lit);
+    // To the right of the eye and ahead of it.
+    const game::Vec3 eye = simulation.state().player.eye(), flame = simulation.state().torch.position;
+    EXPECT_GT(flame.x, eye.x + 0.2);
+    EXPECT_LT(flame.z, eye.z - 0.2);
+    EXPECT_LT(std::hypot(flame.x - eye.x, flame.y - eye.y, flame.z - eye.z), 0.8);
+    StepInput turn;
+    turn.look_right = 714;  // by a quarter
+    simulation.step(turn);
+    EXPECT_GT(simulation.state().torch.position.z, eye.z + 0.2);
+    EXPECT_TRUE(simulation.state().torch.is_lit);
+    simulation.step(torch);
+    EXPECT_FALSE(simulation.state().torch.is_lit);
+    EXPECT_EQ(simulation.state().torch.brightness, 0.0);
+    simulation.step(torch);
+    StepInput restart;
+    restart.restart = true;
+    simulation.step(restart);
+    EXPECT_FALSE(simulation.state().torch.is_lit);
+}
+
+TEST(Torch, FlickersGentlyAndTheSameEachTime) {
+    Simulation first(LevelBuilder().floor(20.0).level()), second(LevelBuilder().floor(20.0).level());
+    StepInput input;
+    input.torch = true;
+    double before = 1.0, least = 9.0, most = 0.0;
+    for (int i = 0; i < 600; ++i) {
+        first.step(input);
+        second.step(input);
+        input.torch = false;
+        const double brightness = first.state().torch.brightness;
+        ASSERT_EQ(brightness, second.state().torch.brightness);
+        ASSERT_TRUE(i == 0 || std::abs(brightness - before) < 0.05) << "step " << i;
+        before = brightness;
+        least = std::min(least, brightness);
+        most = std::max(most, brightness);
+    }
+    EXPECT_GT(least, 0.8);
+    EXPECT_LT(most, 1.2);
+    EXPECT_GT(most - least, 0.1);
+    game::PlayState other = first.state();
+    other.torch.is_lit = false;
+    EXPECT_NE(compute_hash(other), compute_hash(first.state()));
+}
+
+TEST(Torch, StaysOnThisSideOfAWall) {
+    Simulation simulation(LevelBuilder().floor(20.0).wall_ahead(-1.0).level());
+    StepInput input = tarn::test::go_ahead(true);
+    input.torch = true;
+    for (int i = 0; i < 120; ++i) {
+        simulation.step(input);
+        input.torch = false;
+        ASSERT_GT(simulation.state().torch.position.z, -1.0) << "step " << i;
+    }
+    EXPECT_LT(simulation.state().player.feet.z, -0.6);
+}
+
 TEST(LanternCourt, CanBeWalkedInAndHasDeadLanterns) {
     const game::Level level =
         game::make_level(game::Scene::load(TARN_BUILD_DIR "/content/lantern_court.glb"));
