@@ -57,6 +57,7 @@ Controls ControlReader::read() {
     controls.panel = input_.was_pressed(GLFW_KEY_F2);
     controls.fullscreen = input_.was_pressed(GLFW_KEY_F11);
     controls.screenshot = input_.was_pressed(GLFW_KEY_F12);
+    controls.files = input_.dropped_files();
     if (has_mouse_) {
         read_play(controls.play);
     } else {

@@ -1,6 +1,9 @@
 // Keys and mouse as the sandbox understands them.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "../play/step_input.h"
 #include "../window_input.h"
 
@@ -8,13 +11,14 @@ namespace game {
 
 // What a person did since the last frame.
 struct Controls {
-    StepInput play;           // with all that was pressed since then; only while the mouse is captured
-    bool leave = false;       // Escape
-    bool click = false;       // the left button, while the mouse is free
-    bool help = false;        // F1
-    bool panel = false;       // F2
-    bool fullscreen = false;  // F11
-    bool screenshot = false;  // F12
+    StepInput play;                  // with all that was pressed since then; only while the mouse is captured
+    bool leave = false;              // Escape
+    bool click = false;              // the left button, while the mouse is free
+    bool help = false;               // F1
+    bool panel = false;              // F2
+    bool fullscreen = false;         // F11
+    bool screenshot = false;         // F12
+    std::vector<std::string> files;  // that were dropped on the window
 };
 
 class ControlReader {

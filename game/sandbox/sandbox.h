@@ -13,12 +13,12 @@
 #include "../widgets.h"
 #include "controls.h"
 #include "sandbox_panel.h"
-#include "stage.h"
+#include "stage_source.h"
 
 namespace game {
 
 struct SandboxOptions {
-    std::string scene_name;  // as the user gave it
+    StageSource source;  // of the stage
     Settings settings;
     std::string preset;
     std::uint32_t seed = 0;
@@ -31,10 +31,15 @@ class Sandbox {
   public:
     // Draws in the window, which must outlive it. Error where its OpenGL does not do, or the record cannot be
     // written.
-    Sandbox(Window& window, Scene scene, const SandboxOptions& options);
+    Sandbox(Window& window, std::unique_ptr<Stage> stage, const SandboxOptions& options);
 
     // Until the user quits. Error where the record cannot be written.
     void run();
+
+    // For those whom SandboxOptions::stop asks.
+    const Stage& stage() const { return *stage_; }
+    const StageSource& source() const { return source_; }
+    const std::string& message() const { return facts_.message; }
 
   private:
     using Clock = std::chrono::steady_clock;
@@ -48,12 +53,15 @@ class Sandbox {
     void update_title();
     void save_screenshot();
     void report(const std::string& message);
+    void open(const std::string& file);
     void start_record();
+    void end_record();
 
     SandboxOptions options_;
     Window& window_;
     Engine engine_;
-    Stage stage_;
+    StageSource source_;
+    std::unique_ptr<Stage> stage_;
     ControlReader controls_;  // before the widgets, which pass on what they get
     Widgets widgets_;
     std::unique_ptr<View> view_;
