@@ -12,7 +12,7 @@ namespace game {
 namespace {
 
 constexpr const char* TITLE = "tarn-sandbox-replay";
-constexpr int VERSION = 1;
+constexpr int VERSION = 2;
 constexpr std::size_t STEP_LIMIT = 24u * 3600u * 60u;  // a day
 constexpr int SIZE_LIMIT_PX = 16384;
 
@@ -163,8 +163,8 @@ class Reader {
         if (replay_.steps.size() + count > STEP_LIMIT)
             throw Error(fmt::format("there are more than {} steps", STEP_LIMIT));
         StepInput input;
-        input.right = int(words.take_number("right", -1, 1));
-        input.forward = int(words.take_number("forward", -1, 1));
+        input.right = int(words.take_number("right", -FULL_SPEED, FULL_SPEED));
+        input.forward = int(words.take_number("forward", -FULL_SPEED, FULL_SPEED));
         read_keys(words.take("the keys"), input);
         input.look_right = int(words.take_number("look right", -MOUSE_LIMIT, MOUSE_LIMIT));
         input.look_down = int(words.take_number("look down", -MOUSE_LIMIT, MOUSE_LIMIT));

@@ -1,6 +1,6 @@
 // What somebody did in the sandbox, step by step, as a text file.
 //
-//     tarn-sandbox-replay 1
+//     tarn-sandbox-replay 2
 //     scene NAME                     a file, or a scene of the project
 //     level HASH                     of what is solid: 16 hexadecimal digits
 //     size WIDTH HEIGHT              of the pictures, pixels
@@ -11,8 +11,8 @@
 //
 // A file that is cut off, as by a program that was killed, holds what was done until then: the lines that are
 // whole. It has no state to hold its end against.
-// COUNT steps had the same input. KEYS: those letters of "rcjtuxf" that were down (run, crouch, jump, throw,
-// use, restart, torch), "-" for none.
+// COUNT steps had the same input. RIGHT and FORWARD: -100 to 100, percent of the speed. KEYS: those letters
+// of "rcjtuxf" that were down (run, crouch, jump, throw, use, restart, torch), "-" for none.
 #pragma once
 
 #include <cstddef>

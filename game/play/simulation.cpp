@@ -105,7 +105,10 @@ struct Simulation::Parts {
         const double yaw = state.player.yaw_rad;
         const Vec3 right = {std::cos(yaw), 0.0, -std::sin(yaw)};
         const Vec3 forward = {-std::sin(yaw), 0.0, -std::cos(yaw)};
-        const Vec3 way = right * std::clamp(input.right, -1, 1) + forward * std::clamp(input.forward, -1, 1);
+        const auto share = [](int speed) {
+            return double(std::clamp(speed, -FULL_SPEED, FULL_SPEED)) / FULL_SPEED;
+        };
+        const Vec3 way = right * share(input.right) + forward * share(input.forward);
         WalkInput walk;
         walk.direction = to_bullet(way * (1.0 / std::max(1.0, length(way))));
         walk.run = input.run;

@@ -3,9 +3,11 @@
 
 namespace game {
 
+inline constexpr int FULL_SPEED = 100;
+
 struct StepInput {
-    int right = 0;    // -1, 0, 1
-    int forward = 0;  // -1, 0, 1
+    int right = 0;  // -FULL_SPEED to FULL_SPEED: a stick may ask for less
+    int forward = 0;
     bool run = false;
     bool crouch = false;
     bool jump = false;  // this and the next ones: went down since the last step

@@ -111,7 +111,7 @@ void Sandbox::follow_window_size() {
 
 void Sandbox::show_frame(double dt_s) {
     widgets_.begin();
-    const Controls controls = controls_.read();
+    const Controls controls = controls_.read(dt_s);
     handle_controls(controls);
     play(controls, dt_s);
     draw(dt_s);
@@ -128,6 +128,7 @@ void Sandbox::handle_controls(const Controls& controls) {
     if (controls.leave && !controls_.has_mouse()) window_.request_close();
     const bool had_focus = std::exchange(has_focus_, window_.has_focus());
     if (controls.leave || (had_focus && !has_focus_)) controls_.capture_mouse(false);
+    if (controls.pause) controls_.capture_mouse(!controls_.has_mouse());
     if (controls.panel) {
         facts_.shows_panel = !facts_.shows_panel;
         controls_.capture_mouse(!facts_.shows_panel);

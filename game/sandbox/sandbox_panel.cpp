@@ -25,6 +25,8 @@ constexpr const char* HELP =
     "F          take out a torch, or put it away\n"
     "Wheel      recolour that lantern; with Shift: dim it\n"
     "F1 help   F2 panel   F11 fullscreen   F12 screenshot\n"
+    "Gamepad: sticks walk and look, A jumps, B crouches, X acts as E,\n"
+    "         right trigger throws, left trigger runs, start pauses\n"
     "Drop a .gltf or .glb file here to play in it, an .hdr or .exr file as its sky\n"
     "Escape     free the mouse, then quit\n"
     "\n"

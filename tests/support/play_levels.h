@@ -74,7 +74,7 @@ class LevelBuilder {
 
 inline game::StepInput go_ahead(bool run = false) {
     game::StepInput input;
-    input.forward = 1;
+    input.forward = game::FULL_SPEED;
     input.run = run;
     return input;
 }
@@ -92,8 +92,8 @@ class RandomPlayer {
         if (left_-- <= 0) {
             left_ = int(random_() % 60);
             input_ = {};
-            input_.right = int(random_() % 3) - 1;
-            input_.forward = int(random_() % 3) - 1;
+            input_.right = game::FULL_SPEED * (int(random_() % 3) - 1);
+            input_.forward = game::FULL_SPEED * (int(random_() % 3) - 1);
             input_.run = random_() % 2 == 0;
             input_.crouch = random_() % 6 == 0;
             input_.look_right = int(random_() % 41) - 20;

@@ -11,6 +11,7 @@ set_tests_properties(tools.game PROPERTIES LABELS unit TIMEOUT 60)
 # What happens in the sandbox.
 tarn_test(play_character LABEL unit LIBRARIES tarn_play)
 tarn_test(play_balls LABEL unit LIBRARIES tarn_play)
+tarn_test(gamepad LABEL unit LIBRARIES tarn_sandbox)
 tarn_test(play_crates LABEL unit LIBRARIES tarn_play)
 tarn_test(simulation LABEL unit LIBRARIES tarn_play)
 tarn_test(replay_file LABEL unit LIBRARIES tarn_play)

@@ -70,7 +70,7 @@ TEST_F(ReplayFile, WhatIsBrokenIsNamed) {
     };
     expect_error("", "line 1: the file is cut off before its first step");
     expect_error("hello\n", "line 1: this is no replay");
-    expect_error(with("replay 1", "replay 2"), "line 1: its version is 2, this program reads 1");
+    expect_error(with("replay 2", "replay 1"), "line 1: its version is 1, this program reads 2");
     expect_error(with("size 96", "size 0"), "line 4: the width is '0'");
     expect_error(with("seed 4", "seed x4"), "line 5: the seed is 'x4");
     expect_error(with("level fedc", "level FEDC"), "line 3: the level's hash is 'FEDC");
@@ -79,7 +79,7 @@ TEST_F(ReplayFile, WhatIsBrokenIsNamed) {
     expect_error(seedless, "line 7: the line 'seed' is missing");
     expect_error(seedless.substr(0, seedless.size() - 20), "line 7: the line 'seed' is missing");
     expect_error(with("set scale 0.5", "set scale"), "line 6: the setting's value is missing");
-    expect_error(with("step ", "step 7 9 "), "right is '9'");
+    expect_error(with("step ", "step 7 101 "), "right is '101'");
     expect_error(with("step ", "step 1 0 0 q 0 0 0\nstep "), "line 8: 'q' is no key");
     expect_error(with("step ", "step 99999999999 0 0 - 0 0 0\nstep "), "the count is '99999999999'");
     expect_error(with("end 500", "end 501"), "it ends after 501 steps, there are 500");
