@@ -34,4 +34,5 @@ set_tests_properties(sandbox_in_xvfb PROPERTIES LABELS gpu TIMEOUT 600 SKIP_RETU
 
 # A replay without a window: the same pictures each time.
 tarn_test(sandbox_replay LABEL gpu LIBRARIES tarn_play)
+target_compile_definitions(test_sandbox_replay PRIVATE TARN_WITH_DISPLAY="${WITH_DISPLAY}")
 add_dependencies(test_sandbox_replay tarn-sandbox tarn_scenes)
