@@ -24,18 +24,24 @@ WindowInput::WindowInput(Window& window) : window_(window) {
     });
     glfwSetScrollCallback(
         handle, [](GLFWwindow* sender, double, double steps) { input_of(sender).wheel_steps_ += steps; });
+    glfwSetDropCallback(handle, [](GLFWwindow* sender, int count, const char** files) {
+        std::vector<std::string>& list = input_of(sender).dropped_files_;
+        list.insert(list.end(), files, files + count);
+    });
 }
 
 WindowInput::~WindowInput() {
     glfwSetKeyCallback(window_.native_handle(), nullptr);
     glfwSetMouseButtonCallback(window_.native_handle(), nullptr);
     glfwSetScrollCallback(window_.native_handle(), nullptr);
+    glfwSetDropCallback(window_.native_handle(), nullptr);
     glfwSetWindowUserPointer(window_.native_handle(), nullptr);
 }
 
 void WindowInput::forget() {
     pressed_.clear();
     clicked_.clear();
+    dropped_files_.clear();
     wheel_steps_ = 0.0;
 }
 

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <set>
+#include <string>
+#include <vector>
 
 #include "vectors.h"
 #include "window.h"
@@ -26,6 +28,8 @@ class WindowInput {
     bool was_clicked(int button) const { return clicked_.contains(button); }
     // Of the wheel since the last forget(); positive: away from the hand.
     double wheel_steps() const { return wheel_steps_; }
+    // Files that were dropped on the window since the last forget().
+    const std::vector<std::string>& dropped_files() const { return dropped_files_; }
     // The way of the mouse since the last call, pixels to the right and down, while it was captured.
     Vec2 take_mouse_way();
     void forget();
@@ -37,6 +41,7 @@ class WindowInput {
     Window& window_;
     std::set<int> pressed_;
     std::set<int> clicked_;
+    std::vector<std::string> dropped_files_;
     double wheel_steps_ = 0.0;
     Vec2 mouse_px_;  // at the last take_mouse_way()
     bool captured_ = false;

@@ -3,7 +3,7 @@
 namespace game {
 namespace {
 
-constexpr btScalar MASS_KG = 0.4f;
+constexpr btScalar BALL_KG = 0.4f;
 
 }  // namespace
 
@@ -36,8 +36,8 @@ void Balls::add(const btVector3& position, const btVector3& velocity_m_s, int co
     next_ = (next_ + 1) % balls_.size();
     remove(ball);
     btVector3 inertia;
-    shape_.calculateLocalInertia(MASS_KG, inertia);
-    btRigidBody::btRigidBodyConstructionInfo info(MASS_KG, nullptr, &shape_, inertia);
+    shape_.calculateLocalInertia(BALL_KG, inertia);
+    btRigidBody::btRigidBodyConstructionInfo info(BALL_KG, nullptr, &shape_, inertia);
     info.m_startWorldTransform.setIdentity();
     info.m_startWorldTransform.setOrigin(position);
     info.m_friction = 0.7f;
@@ -53,7 +53,8 @@ void Balls::add(const btVector3& position, const btVector3& velocity_m_s, int co
     // A fast ball moves by more than its radius in a step.
     ball.body->setCcdMotionThreshold(btScalar(0.5 * BALL_RADIUS_M));
     ball.body->setCcdSweptSphereRadius(btScalar(0.5 * BALL_RADIUS_M));
-    physics_.world().addRigidBody(ball.body.get(), GROUP_BALL, GROUP_LEVEL | GROUP_BALL | GROUP_BODY);
+    physics_.world().addRigidBody(ball.body.get(), GROUP_BALL,
+                                  GROUP_LEVEL | GROUP_BALL | GROUP_BODY | GROUP_CRATE);
 }
 
 void Balls::hold() {

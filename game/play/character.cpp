@@ -22,15 +22,6 @@ btCapsuleShape make_capsule(btScalar height_m, btScalar radius_m = Character::RA
     return btCapsuleShape(radius_m, height_m - 2.0f * radius_m);
 }
 
-struct ContactFound final : btCollisionWorld::ContactResultCallback {
-    btScalar addSingleResult(btManifoldPoint& point, const btCollisionObjectWrapper*, int, int,
-                             const btCollisionObjectWrapper*, int, int) override {
-        found = found || point.getDistance() < 0.0f;
-        return 0.0f;
-    }
-    bool found = false;
-};
-
 }  // namespace
 
 Character::Character(Physics& physics, const btVector3& feet)
@@ -42,8 +33,9 @@ Character::Character(Physics& physics, const btVector3& feet)
       body_(btRigidBody::btRigidBodyConstructionInfo(0.0f, nullptr, &tall_)),
       eye_height_m_(HEIGHT_M - EYE_BELOW_TOP_M) {
     ghost_.setCollisionShape(&tall_);
-    ghost_.setCollisionFlags(btCollisionObject::CF_CHARACTER_OBJECT);
-    physics.world().addCollisionObject(&ghost_, GROUP_CHARACTER, GROUP_LEVEL);
+    // Static, so that crates beside it may fall asleep; it moves itself.
+    ghost_.setCollisionFlags(btCollisionObject::CF_CHARACTER_OBJECT | btCollisionObject::CF_STATIC_OBJECT);
+    physics.world().addCollisionObject(&ghost_, GROUP_CHARACTER, GROUP_LEVEL | GROUP_CRATE);
     body_.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
     body_.setActivationState(DISABLE_DEACTIVATION);
     physics.world().addRigidBody(&body_, GROUP_BODY, GROUP_BALL);
@@ -65,6 +57,7 @@ void Character::teleport(const btVector3& feet) {
     set_height(false);
     eye_height_m_ = HEIGHT_M - EYE_BELOW_TOP_M;
     velocity_.setZero();
+    wish_m_s_.setZero();
     controller_.reset(&physics_.world());
     controller_.warp(feet + btVector3(0.0f, half_height_m(shape()), 0.0f));
     body_.setWorldTransform(ghost_.getWorldTransform());
@@ -76,16 +69,9 @@ btVector3 Character::feet() const {
 }
 
 bool Character::has_room_to_stand() const {
-    btCollisionObject standing;
-    standing.setCollisionShape(const_cast<btCapsuleShape*>(&slim_));
     btTransform place = btTransform::getIdentity();
     place.setOrigin(feet() + btVector3(0.0f, HEIGHT_M - half_height_m(slim_), 0.0f));
-    standing.setWorldTransform(place);
-    ContactFound contact;
-    contact.m_collisionFilterGroup = GROUP_CHARACTER;
-    contact.m_collisionFilterMask = GROUP_LEVEL;
-    physics_.world().contactTest(&standing, contact);
-    return !contact.found && !is_pierced(HEIGHT_M);
+    return !physics_.touches(slim_, place, GROUP_LEVEL | GROUP_CRATE) && !is_pierced(HEIGHT_M);
 }
 
 void Character::set_height(bool crouch) {
@@ -105,7 +91,8 @@ void Character::change_height(bool crouch) {
 
 void Character::accelerate(const WalkInput& input, btScalar dt_s) {
     const btScalar speed = is_crouching_ ? CROUCHED_M_S : input.run ? RUN_M_S : WALK_M_S;
-    const btVector3 missing = input.direction * speed - velocity_;
+    wish_m_s_ = input.direction * speed;
+    const btVector3 missing = wish_m_s_ - velocity_;
     const btScalar most = dt_s * (controller_.onGround() ? GROUND_ACCELERATION_M_S2 : AIR_ACCELERATION_M_S2);
     const btScalar length = missing.length();
     velocity_ += length > most ? missing * (most / length) : missing;

@@ -30,6 +30,11 @@ class Character {
     btScalar eye_height_m() const { return eye_height_m_; }
     bool is_on_ground() const { return controller_.onGround(); }
     bool is_crouching() const { return is_crouching_; }
+    // Where its middle is, and its shape.
+    const btTransform& place() const { return ghost_.getWorldTransform(); }
+    const btCapsuleShape& shape() const { return is_crouching_ ? low_ : tall_; }
+    // Where it wants to, in the plane of the floor, whatever is in its way.
+    const btVector3& wish_m_s() const { return wish_m_s_; }
 
     static constexpr btScalar RADIUS_M = 0.3f;
     static constexpr btScalar HEIGHT_M = 1.75f;
@@ -46,7 +51,6 @@ class Character {
         }
     };
 
-    const btCapsuleShape& shape() const { return is_crouching_ ? low_ : tall_; }
     static btScalar half_height_m(const btCapsuleShape& shape) {
         return shape.getHalfHeight() + shape.getRadius();
     }
@@ -65,6 +69,7 @@ class Character {
     Controller controller_;
     btRigidBody body_;  // follows, and pushes balls
     btVector3 velocity_{0.0f, 0.0f, 0.0f};
+    btVector3 wish_m_s_{0.0f, 0.0f, 0.0f};
     btScalar eye_height_m_;
     bool is_crouching_ = false;
 };

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "../vectors.h"
+#include "crate_places.h"
 #include "hash.h"
 
 namespace game {
@@ -97,6 +98,7 @@ Level make_level(const Scene& scene) {
     }
     place_start(level, scene.default_camera(16.0 / 9.0));
     level.lanterns = find_lanterns(scene, parts);
+    level.crates = find_crate_places(scene.name(), level);
     return level;
 }
 
@@ -110,6 +112,10 @@ std::uint64_t compute_hash(const Level& level) {
     }
     hash.add(level.start_yaw_rad);
     hash.add(level.start_pitch_rad);
+    for (const CratePlace& crate : level.crates) {
+        for (const double value : {crate.above.x, crate.above.y, crate.above.z, crate.yaw_rad})
+            hash.add(value);
+    }
     return hash.value();
 }
 

@@ -16,6 +16,12 @@ struct Lantern {
     bool is_dead = false;  // until somebody lights it
 };
 
+// A wooden crate's place: its middle before it is dropped, world space, and its turn about the vertical.
+struct CratePlace {
+    Vec3 above;
+    double yaw_rad = 0.0;
+};
+
 struct Level {
     // Solid triangles: nine numbers each, metres relative to `origin`.
     std::vector<std::array<float, 9>> triangles;
@@ -28,13 +34,14 @@ struct Level {
     double start_pitch_rad = 0.0;
     double half_height = 0.5;  // of the camera's image plane at 1 m
     std::vector<Lantern> lanterns;
+    std::vector<CratePlace> crates;  // wished for: those without room there are left out
 };
 
 // Solid is what no animation moves and no texture cuts holes into, as into leaves. Play starts at the scene's
 // first camera. Every third of the lanterns that stand still is dead.
 Level make_level(const Scene& scene);
 
-// Of the solid triangles and the start: replays name the level that they were recorded in by it.
+// Of the solid triangles, the start and the crates: replays name the level that they were recorded in by it.
 std::uint64_t compute_hash(const Level& level);
 
 }  // namespace game

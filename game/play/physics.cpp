@@ -1,6 +1,18 @@
 #include "physics.h"
 
 namespace game {
+namespace {
+
+struct ContactFound final : btCollisionWorld::ContactResultCallback {
+    btScalar addSingleResult(btManifoldPoint& point, const btCollisionObjectWrapper*, int, int,
+                             const btCollisionObjectWrapper*, int, int) override {
+        found = found || point.getDistance() < 0.0f;
+        return 0.0f;
+    }
+    bool found = false;
+};
+
+}  // namespace
 
 Physics::Physics(const Level& level)
     : origin_(level.origin),
@@ -35,7 +47,7 @@ std::unique_ptr<btRigidBody> Physics::add_still(btCollisionShape& shape) {
     info.m_friction = 0.7f;
     info.m_restitution = 1.0f;  // a contact has the product of both sides: the ball's own
     auto body = std::make_unique<btRigidBody>(info);
-    world_.addRigidBody(body.get(), GROUP_LEVEL, GROUP_BALL | GROUP_CHARACTER);
+    world_.addRigidBody(body.get(), GROUP_LEVEL, GROUP_BALL | GROUP_CHARACTER | GROUP_CRATE);
     return body;
 }
 
@@ -59,6 +71,17 @@ bool Physics::is_surface_between(const btVector3& from, const btVector3& to) con
     way.m_collisionFilterMask = GROUP_LEVEL;
     world_.rayTest(from, to, way);
     return way.hasHit();
+}
+
+bool Physics::touches(const btConvexShape& shape, const btTransform& place, int mask) {
+    btCollisionObject object;
+    object.setCollisionShape(const_cast<btConvexShape*>(&shape));
+    object.setWorldTransform(place);
+    ContactFound contact;
+    contact.m_collisionFilterGroup = -1;
+    contact.m_collisionFilterMask = mask;
+    world_.contactTest(&object, contact);
+    return contact.found;
 }
 
 }  // namespace game

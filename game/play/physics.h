@@ -12,7 +12,13 @@
 namespace game {
 
 // What collides with what.
-enum CollisionGroup : int { GROUP_LEVEL = 1, GROUP_BALL = 2, GROUP_CHARACTER = 4, GROUP_BODY = 8 };
+enum CollisionGroup : int {
+    GROUP_LEVEL = 1,
+    GROUP_BALL = 2,
+    GROUP_CHARACTER = 4,  // a person, who is stopped
+    GROUP_BODY = 8,       // the same person, as balls feel it
+    GROUP_CRATE = 16
+};
 
 inline constexpr double GRAVITY_M_S2 = 9.81;
 
@@ -35,12 +41,26 @@ class Physics {
     // Whether a surface of the level lies between two points.
     bool is_surface_between(const btVector3& from, const btVector3& to) const;
 
+    // Whether a shape would be inside of what is in one of the groups of `mask`.
+    bool touches(const btConvexShape& shape, const btTransform& place, int mask);
+
   private:
+    // A person's ghost finds what it touches and moves itself out; it pushes nothing, and nothing rests on
+    // it.
+    class Dispatcher final : public btCollisionDispatcher {
+      public:
+        using btCollisionDispatcher::btCollisionDispatcher;
+        bool needsResponse(const btCollisionObject* a, const btCollisionObject* b) override {
+            const bool has_ghost = btGhostObject::upcast(a) != nullptr || btGhostObject::upcast(b) != nullptr;
+            return !has_ghost && btCollisionDispatcher::needsResponse(a, b);
+        }
+    };
+
     std::unique_ptr<btRigidBody> add_still(btCollisionShape& shape);
 
     Vec3 origin_;
     btDefaultCollisionConfiguration configuration_;
-    btCollisionDispatcher dispatcher_;
+    Dispatcher dispatcher_;
     btDbvtBroadphase broadphase_;
     btGhostPairCallback ghost_pairs_;
     btSequentialImpulseConstraintSolver solver_;

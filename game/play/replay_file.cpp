@@ -5,7 +5,6 @@
 #include <fstream>
 #include <set>
 #include <sstream>
-#include <system_error>
 
 #include "../tarn_names.h"
 
@@ -13,7 +12,7 @@ namespace game {
 namespace {
 
 constexpr const char* TITLE = "tarn-sandbox-replay";
-constexpr int VERSION = 1;
+constexpr int VERSION = 2;
 constexpr std::size_t STEP_LIMIT = 24u * 3600u * 60u;  // a day
 constexpr int SIZE_LIMIT_PX = 16384;
 
@@ -22,7 +21,8 @@ struct Key {
     bool StepInput::*flag;
 };
 constexpr Key KEYS[] = {{'r', &StepInput::run},        {'c', &StepInput::crouch}, {'j', &StepInput::jump},
-                        {'t', &StepInput::throw_ball}, {'u', &StepInput::use},    {'x', &StepInput::restart}};
+                        {'t', &StepInput::throw_ball}, {'u', &StepInput::use},    {'x', &StepInput::restart},
+                        {'f', &StepInput::torch}};
 
 std::string describe_keys(const StepInput& input) {
     std::string letters;
@@ -92,20 +92,34 @@ void read_keys(const std::string& letters, StepInput& input) {
 class Reader {
   public:
     Replay read(std::istream& stream) {
+        replay_.is_complete = false;
         std::string line;
         while (std::getline(stream, line)) {
             ++line_;
+            // Who was killed left half a line, which may say less than was meant.
+            if (stream.eof() && line_ > 1) return finish();
             if (line.empty()) continue;
-            if (is_complete_) throw Error("there is more after the end");
+            if (replay_.is_complete) throw Error("there is more after the end");
             read_line(line);
         }
         ++line_;
-        if (!is_complete_) throw Error("the line 'end' is missing: the file is cut off");
-        return std::move(replay_);
+        return finish();
     }
     int line() const { return line_; }
 
   private:
+    Replay finish() {
+        if (!replay_.is_complete && replay_.steps.empty())
+            throw Error("the file is cut off before its first step");
+        return std::move(replay_);
+    }
+
+    void check_head() const {
+        for (const char* kind : {"scene", "level", "size", "seed"}) {
+            if (!seen_.contains(kind)) throw Error(fmt::format("the line '{}' is missing", kind));
+        }
+    }
+
     void read_line(const std::string& line) {
         Words words(line);
         const std::string kind = words.take("a word");
@@ -143,13 +157,14 @@ class Reader {
     }
 
     void read_step(Words& words) {
+        if (replay_.steps.empty()) check_head();
         constexpr int MOUSE_LIMIT = 1000000;
         const std::size_t count = std::size_t(words.take_number("the count", 1, (long long)STEP_LIMIT));
         if (replay_.steps.size() + count > STEP_LIMIT)
             throw Error(fmt::format("there are more than {} steps", STEP_LIMIT));
         StepInput input;
-        input.right = int(words.take_number("right", -1, 1));
-        input.forward = int(words.take_number("forward", -1, 1));
+        input.right = int(words.take_number("right", -FULL_SPEED, FULL_SPEED));
+        input.forward = int(words.take_number("forward", -FULL_SPEED, FULL_SPEED));
         read_keys(words.take("the keys"), input);
         input.look_right = int(words.take_number("look right", -MOUSE_LIMIT, MOUSE_LIMIT));
         input.look_down = int(words.take_number("look down", -MOUSE_LIMIT, MOUSE_LIMIT));
@@ -158,39 +173,37 @@ class Reader {
     }
 
     void read_end(Words& words) {
-        for (const char* kind : {"scene", "level", "size", "seed"}) {
-            if (!seen_.contains(kind)) throw Error(fmt::format("the line '{}' is missing", kind));
-        }
+        check_head();
         const long long steps = words.take_number("the number of steps", 0, (long long)STEP_LIMIT);
         if (std::size_t(steps) != replay_.steps.size())
             throw Error(fmt::format("it ends after {} steps, there are {}", steps, replay_.steps.size()));
         replay_.state_hash = words.take_hash("the state's hash");
-        is_complete_ = true;
+        replay_.is_complete = true;
     }
 
     Replay replay_;
     std::set<std::string> seen_;
     int line_ = 0;
-    bool is_complete_ = false;
 };
 
-std::string describe(const Replay& replay) {
+}  // namespace
+
+std::string describe_head(const Replay& replay) {
     std::string text =
         fmt::format("{} {}\nscene {}\nlevel {:016x}\nsize {} {}\nseed {}\n", TITLE, VERSION, replay.scene,
                     replay.level_hash, replay.width_px, replay.height_px, replay.seed);
     for (const auto& [name, value] : replay.settings) text += fmt::format("set {} {}\n", name, value);
-    for (std::size_t i = 0; i < replay.steps.size();) {
-        const StepInput& input = replay.steps[i];
-        std::size_t next = i + 1;
-        while (next < replay.steps.size() && replay.steps[next] == input) ++next;
-        text += fmt::format("step {} {} {} {} {} {} {}\n", next - i, input.right, input.forward,
-                            describe_keys(input), input.look_right, input.look_down, input.wheel);
-        i = next;
-    }
-    return text + fmt::format("end {} {:016x}\n", replay.steps.size(), replay.state_hash);
+    return text;
 }
 
-}  // namespace
+std::string describe_steps(std::size_t count, const StepInput& input) {
+    return fmt::format("step {} {} {} {} {} {} {}\n", count, input.right, input.forward, describe_keys(input),
+                       input.look_right, input.look_down, input.wheel);
+}
+
+std::string describe_end(std::size_t steps, std::uint64_t state_hash) {
+    return fmt::format("end {} {:016x}\n", steps, state_hash);
+}
 
 Replay load_replay(const std::filesystem::path& file) {
     std::ifstream stream(file);
@@ -202,20 +215,6 @@ Replay load_replay(const std::filesystem::path& file) {
     } catch (const Error& error) {
         throw Error(fmt::format("{}: line {}: {}", file.string(), reader.line(), error.what()));
     }
-}
-
-void save_replay(const std::filesystem::path& file, const Replay& replay) {
-    std::filesystem::path part = file;
-    part += ".part";
-    std::ofstream stream(part, std::ios::trunc);
-    stream << describe(replay);
-    stream.close();
-    std::error_code failure;
-    if (stream) std::filesystem::rename(part, file, failure);
-    if (stream && !failure) return;
-    std::error_code ignored;
-    std::filesystem::remove(part, ignored);
-    throw Error(fmt::format("{}: the replay cannot be written", file.string()));
 }
 
 }  // namespace game

@@ -1,6 +1,6 @@
 // What somebody did in the sandbox, step by step, as a text file.
 //
-//     tarn-sandbox-replay 1
+//     tarn-sandbox-replay 2
 //     scene NAME                     a file, or a scene of the project
 //     level HASH                     of what is solid: 16 hexadecimal digits
 //     size WIDTH HEIGHT              of the pictures, pixels
@@ -9,10 +9,13 @@
 //     step COUNT RIGHT FORWARD KEYS LOOK_RIGHT LOOK_DOWN WHEEL
 //     end STEPS HASH                 how many steps those were, and the state after them
 //
-// COUNT steps had the same input. KEYS: those letters of "rcjtux" that were down (run, crouch, jump, throw,
-// use, restart), "-" for none.
+// A file that is cut off, as by a program that was killed, holds what was done until then: the lines that are
+// whole. It has no state to hold its end against.
+// COUNT steps had the same input. RIGHT and FORWARD: -100 to 100, percent of the speed. KEYS: those letters
+// of "rcjtuxf" that were down (run, crouch, jump, throw, use, restart, torch), "-" for none.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -31,15 +34,18 @@ struct Replay {
     std::uint32_t seed = 0;
     std::vector<std::pair<std::string, std::string>> settings;  // name, value
     std::vector<StepInput> steps;
-    std::uint64_t state_hash = 0;
+    std::uint64_t state_hash = 0;  // after the last step
+    bool is_complete = true;  // else the file is cut off: there may have been more, and no state is known
 
     bool operator==(const Replay&) const = default;
 };
 
-// Error that names the file and the line, and what is wrong with it.
+// Error that names the file and the line, and what is wrong with it; also for a file without any whole step.
 Replay load_replay(const std::filesystem::path& file);
 
-// The file is written whole or not at all. Error that names it.
-void save_replay(const std::filesystem::path& file, const Replay& replay);
+// Lines of such a file: all before the first step, `count` steps with the same input, and the end.
+std::string describe_head(const Replay& replay);
+std::string describe_steps(std::size_t count, const StepInput& input);
+std::string describe_end(std::size_t steps, std::uint64_t state_hash);
 
 }  // namespace game

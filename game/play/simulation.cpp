@@ -6,9 +6,11 @@
 #include "../vectors.h"
 #include "balls.h"
 #include "character.h"
+#include "crates.h"
 #include "hash.h"
 #include "lantern_rules.h"
 #include "physics.h"
+#include "torch.h"
 
 namespace game {
 namespace {
@@ -36,7 +38,7 @@ double sweep_ball(Physics& physics, const btVector3& from, const btVector3& to) 
     const btSphereShape ball{btScalar(BALL_RADIUS_M)};
     btCollisionWorld::ClosestConvexResultCallback hit(from, to);
     hit.m_collisionFilterGroup = GROUP_BALL;
-    hit.m_collisionFilterMask = GROUP_LEVEL;
+    hit.m_collisionFilterMask = GROUP_LEVEL | GROUP_CRATE;
     btTransform start = btTransform::getIdentity(), end = btTransform::getIdentity();
     start.setOrigin(from);
     end.setOrigin(to);
@@ -74,6 +76,7 @@ struct Simulation::Parts {
           start_pitch_rad(std::clamp(level.start_pitch_rad, -STEEPEST_LOOK_RAD, STEEPEST_LOOK_RAD)),
           character(physics, start_feet),
           balls(physics, btScalar(lowest_m)),
+          crates(physics, level, btScalar(lowest_m)),
           lanterns(level.lanterns) {
         restart();
     }
@@ -81,11 +84,13 @@ struct Simulation::Parts {
     void restart() {
         character.teleport(start_feet);
         balls.clear();
+        crates.restart();
         state = {};
         state.player.yaw_rad = start_yaw_rad;
         state.player.pitch_rad = start_pitch_rad;
         lanterns.restart(state);
         describe();
+        hold_torch();
     }
 
     void look(const StepInput& input) {
@@ -100,7 +105,10 @@ struct Simulation::Parts {
         const double yaw = state.player.yaw_rad;
         const Vec3 right = {std::cos(yaw), 0.0, -std::sin(yaw)};
         const Vec3 forward = {-std::sin(yaw), 0.0, -std::cos(yaw)};
-        const Vec3 way = right * std::clamp(input.right, -1, 1) + forward * std::clamp(input.forward, -1, 1);
+        const auto share = [](int speed) {
+            return double(std::clamp(speed, -FULL_SPEED, FULL_SPEED)) / FULL_SPEED;
+        };
+        const Vec3 way = right * share(input.right) + forward * share(input.forward);
         WalkInput walk;
         walk.direction = to_bullet(way * (1.0 / std::max(1.0, length(way))));
         walk.run = input.run;
@@ -120,13 +128,26 @@ struct Simulation::Parts {
         state.next_color = (state.next_color + 1) % PLAY_COLORS;
     }
 
+    // As a ball in the hand, so that its flame is on this side of walls.
+    void hold_torch() {
+        TorchState& torch = state.torch;
+        torch.position = state.player.eye();
+        torch.brightness = torch.is_lit ? compute_flicker(state.step) : 0.0;
+        if (!torch.is_lit) return;
+        const Vec3 reach = compute_torch_reach(state.player.yaw_rad, state.player.pitch_rad);
+        const btVector3 eye = physics.to_local(torch.position);
+        torch.position = torch.position + reach * sweep_ball(physics, eye, eye + to_bullet(reach));
+    }
+
     void move(const StepInput& input) {
         WalkInput walk = walk_input(input);
         constexpr auto DT_S = btScalar(STEP_S / SUBSTEPS);
         for (int i = 0; i < SUBSTEPS; ++i) {
             character.step(walk, DT_S);
+            crates.push(character, DT_S);
             physics.world().stepSimulation(DT_S, 0);
             balls.hold();
+            crates.hold();
             walk.jump = false;
         }
         if (character.feet().y() < lowest_m) character.teleport(start_feet);
@@ -138,6 +159,7 @@ struct Simulation::Parts {
         state.player.is_on_ground = character.is_on_ground();
         state.player.is_crouching = character.is_crouching();
         balls.describe(state.balls);
+        crates.describe(state.crates);
     }
 
     Physics physics;
@@ -147,6 +169,7 @@ struct Simulation::Parts {
     double start_pitch_rad;
     Character character;
     Balls balls;
+    Crates crates;
     LanternRules lanterns;
     PlayState state;
 };
@@ -160,6 +183,8 @@ void Simulation::step(const StepInput& input) {
     parts_->move(input);
     ++parts_->state.step;
     parts_->describe();
+    if (input.torch) parts_->state.torch.is_lit = !parts_->state.torch.is_lit;
+    parts_->hold_torch();
     parts_->lanterns.step(input, look_direction(parts_->state.player), parts_->state);
     if (input.throw_ball) {
         parts_->throw_ball();
@@ -176,6 +201,9 @@ std::uint64_t compute_hash(const PlayState& state) {
     const auto add_point = [&](const Vec3& p) {
         for (const double value : {p.x, p.y, p.z}) hash.add(value);
     };
+    const auto add_turn = [&](const Rotation& r) {
+        for (const double value : {r.x, r.y, r.z, r.w}) hash.add(value);
+    };
     hash.add(state.step);
     const PlayerState& player = state.player;
     add_point(player.feet);
@@ -185,9 +213,16 @@ std::uint64_t compute_hash(const PlayState& state) {
         hash.add(int(ball.is_alive) + 2 * ball.color);
         add_point(ball.position);
         add_point(ball.velocity);
-        const Rotation& r = ball.rotation;
-        for (const double value : {r.x, r.y, r.z, r.w}) hash.add(value);
+        add_turn(ball.rotation);
     }
+    for (const CrateState& crate : state.crates) {
+        add_point(crate.position);
+        add_point(crate.velocity);
+        add_turn(crate.rotation);
+    }
+    add_point(state.torch.position);
+    hash.add(state.torch.brightness);
+    hash.add(int(state.torch.is_lit));
     for (const LanternState& lantern : state.lanterns) {
         hash.add(int(lantern.is_lit) + 2 * lantern.color);
         hash.add(lantern.brightness);

@@ -1,5 +1,5 @@
-// The sandbox's world: a person who walks, glowing balls, lanterns. Its state is a function of the level and
-// of the inputs so far, to the bit.
+// The sandbox's world: a person who walks, glowing balls, crates, lanterns. Its state is a function of the
+// level and of the inputs so far, to the bit.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,8 @@ inline constexpr int STEPS_PER_S = 60;
 inline constexpr double STEP_S = 1.0 / STEPS_PER_S;
 inline constexpr int BALL_LIMIT = 50;  // a further one takes the place of the oldest
 inline constexpr double BALL_RADIUS_M = 0.15;
-inline constexpr int PLAY_COLORS = 8;  // of balls and lanterns
+inline constexpr double CRATE_HALF_M = 0.3;  // of their edge
+inline constexpr int PLAY_COLORS = 8;        // of balls and lanterns
 
 struct PlayerState {
     Vec3 feet;  // world space, metres
@@ -36,22 +37,36 @@ struct BallState {
     int color = 0;  // below PLAY_COLORS
 };
 
+struct CrateState {
+    Vec3 position;  // its middle, world space, metres
+    Rotation rotation;
+    Vec3 velocity;  // m/s
+};
+
 struct LanternState {
     bool is_lit = true;
     int color = -1;           // below PLAY_COLORS; -1: the scene's own
     double brightness = 1.0;  // relative to the scene's own
 };
 
+struct TorchState {
+    bool is_lit = false;
+    Vec3 position;            // of its flame, world space, metres
+    double brightness = 0.0;  // relative to its mean; 0: not lit
+};
+
 struct PlayState {
     std::uint64_t step = 0;  // since the start, or since the last restart
     PlayerState player;
     std::vector<BallState> balls;        // BALL_LIMIT
+    std::vector<CrateState> crates;      // always as many
     std::vector<LanternState> lanterns;  // as in the level
-    int aimed_lantern = -1;              // within reach, in the middle of the view; -1: none
-    int next_color = 0;                  // of the next ball
-    int dead_count = 0;                  // lanterns that were dead
-    int relit_count = 0;                 // and are lit now
-    std::uint64_t finished_step = 0;     // when all were lit for the first time; 0: not yet
+    TorchState torch;
+    int aimed_lantern = -1;           // within reach, in the middle of the view; -1: none
+    int next_color = 0;               // of the next ball
+    int dead_count = 0;               // lanterns that were dead
+    int relit_count = 0;              // and are lit now
+    std::uint64_t finished_step = 0;  // when all were lit for the first time; 0: not yet
 };
 
 // Of every number in it.

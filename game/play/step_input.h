@@ -3,14 +3,17 @@
 
 namespace game {
 
+inline constexpr int FULL_SPEED = 100;
+
 struct StepInput {
-    int right = 0;    // -1, 0, 1
-    int forward = 0;  // -1, 0, 1
+    int right = 0;  // -FULL_SPEED to FULL_SPEED: a stick may ask for less
+    int forward = 0;
     bool run = false;
     bool crouch = false;
     bool jump = false;  // this and the next ones: went down since the last step
     bool throw_ball = false;
-    bool use = false;  // light or put out the lantern that is looked at
+    bool use = false;    // light or put out the lantern that is looked at
+    bool torch = false;  // take it out or put it away
     bool restart = false;
     int look_right = 0;  // mouse movement, pixels
     int look_down = 0;

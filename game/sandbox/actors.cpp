@@ -9,7 +9,8 @@ constexpr int BALL_SUBDIVISIONS = 1;  // 80 triangles, each of which is a light
 constexpr double PARKED_BELOW_M = 0.6;
 constexpr double PARKED_APART_M = 0.3;
 
-bool is_same_place(const BallState& a, const BallState& b) {
+template <class State>
+bool is_same_place(const State& a, const State& b) {
     return a.position.x == b.position.x && a.position.y == b.position.y && a.position.z == b.position.z &&
            a.rotation.x == b.rotation.x && a.rotation.y == b.rotation.y && a.rotation.z == b.rotation.z &&
            a.rotation.w == b.rotation.w;
@@ -22,6 +23,28 @@ Surface ball_surface(const BallState& ball) {
     surface.roughness = 0.6;
     if (ball.is_alive) surface.emission = radiance;
     return surface;
+}
+
+// Oiled wood; no two of the same tree.
+Surface crate_surface(std::size_t index) {
+    const double shade = 0.8 + 0.1 * double(index % 5);
+    Surface surface;
+    surface.base_color = Vec3{0.34, 0.19, 0.085} * shade;
+    surface.roughness = 0.55;
+    return surface;
+}
+
+Transform place_at(const Vec3& position) {
+    Transform place;
+    place.translation = position;
+    return place;
+}
+
+// A flame without extent: nothing of it is in the picture, however close it is to the eye.
+Light torch_light(const TorchState& torch) {
+    Light light;
+    light.intensity = Vec3{7.4, 3.7, 1.4} * torch.brightness;
+    return light;
 }
 
 // In a row below the middle of the level.
@@ -45,7 +68,7 @@ Vec3 lantern_emission(const Vec3& own, const LanternState& lantern) {
 
 }  // namespace
 
-Actors::Actors(Scene& scene, const Level& level) : scene_(scene) {
+Actors::Actors(Scene& scene, const Level& level, const PlayState& start) : scene_(scene) {
     for (int i = 0; i < BALL_LIMIT; ++i) {
         Ball ball;
         ball.parked = parking_place(level, i);
@@ -53,6 +76,13 @@ Actors::Actors(Scene& scene, const Level& level) : scene_(scene) {
         ball.material = scene.materials(ball.node).at(0);
         balls_.push_back(ball);
     }
+    for (const CrateState& state : start.crates) {
+        const Vec3 half{CRATE_HALF_M, CRATE_HALF_M, CRATE_HALF_M};
+        const Surface wood = crate_surface(crates_.size());
+        crates_.push_back({scene.add_box(half, wood, {state.position, state.rotation}), state});
+    }
+    torch_ = scene.add_light(torch_light(start.torch), place_at(start.torch.position));
+    torch_shown_ = start.torch;
     for (const Lantern& lantern : level.lanterns) {
         scene.separate_materials(lantern.node);
         LanternActor actor;
@@ -77,6 +107,19 @@ void Actors::show_ball(Ball& ball, const BallState& state) {
     ball.shown = state;
 }
 
+void Actors::show_torch(const TorchState& state) {
+    if (!state.is_lit && !torch_shown_.is_lit) return;
+    scene_.set_transform(torch_, place_at(state.position));
+    if (state.brightness != torch_shown_.brightness) scene_.set_light(torch_, torch_light(state));
+    torch_shown_ = state;
+}
+
+void Actors::show_crate(Crate& crate, const CrateState& state) {
+    if (!is_same_place(state, crate.shown))
+        scene_.set_transform(crate.node, {state.position, state.rotation});
+    crate.shown = state;
+}
+
 void Actors::show_lantern(LanternActor& lantern, const LanternState& state) {
     const LanternState& shown = lantern.shown;
     if (state.is_lit == shown.is_lit && state.color == shown.color && state.brightness == shown.brightness)
@@ -90,7 +133,9 @@ void Actors::show_lantern(LanternActor& lantern, const LanternState& state) {
 }
 
 void Actors::show(const PlayState& state) {
+    show_torch(state.torch);
     for (std::size_t i = 0; i < balls_.size(); ++i) show_ball(balls_[i], state.balls[i]);
+    for (std::size_t i = 0; i < crates_.size(); ++i) show_crate(crates_[i], state.crates[i]);
     for (std::size_t i = 0; i < lanterns_.size(); ++i) show_lantern(lanterns_[i], state.lanterns[i]);
 }
 

@@ -1,4 +1,5 @@
-// The scene's part in the play: balls and lanterns, as the simulation says where and how bright they are.
+// The scene's part in the play: balls, crates, lanterns and a torch, as the simulation says where and how
+// bright they are.
 #pragma once
 
 #include <vector>
@@ -10,9 +11,10 @@ namespace game {
 
 class Actors {
   public:
-    // Adds all balls, dark and out of sight, and gives each lantern materials of its own: before the first
-    // frame, since views begin anew after it. The scene must outlive this.
-    Actors(Scene& scene, const Level& level);
+    // Adds all balls, dark and out of sight, and the crates of the first state, and gives each lantern
+    // materials of its own: before the first frame, since views begin anew after it. The scene must outlive
+    // this.
+    Actors(Scene& scene, const Level& level, const PlayState& start);
 
     // Moves and switches what differs from the last call.
     void show(const PlayState& state);
@@ -24,6 +26,10 @@ class Actors {
         Transform parked;
         BallState shown;
     };
+    struct Crate {
+        Node node;
+        CrateState shown;
+    };
     struct LanternPart {
         std::size_t material = 0;
         Surface surface;  // as the scene has it
@@ -34,11 +40,16 @@ class Actors {
     };
 
     void show_ball(Ball& ball, const BallState& state);
+    void show_torch(const TorchState& state);
+    void show_crate(Crate& crate, const CrateState& state);
     void show_lantern(LanternActor& lantern, const LanternState& state);
 
     Scene& scene_;
     std::vector<Ball> balls_;
+    std::vector<Crate> crates_;
     std::vector<LanternActor> lanterns_;
+    Node torch_;
+    TorchState torch_shown_;
 };
 
 }  // namespace game

@@ -1,5 +1,6 @@
 #include "controls.h"
 
+#include <algorithm>
 #include <cmath>
 
 #define GLFW_INCLUDE_NONE
@@ -9,6 +10,9 @@ namespace game {
 namespace {
 
 constexpr int UNSETTLED_LOOKS = 3;
+constexpr double PAD_LOOK_PX_S = 1000.0;  // as of a mouse: 2.2 rad/s
+constexpr double LONGEST_LOOK_S = 0.1;    // a slow frame must not whirl the head around
+constexpr double PULLED = 0.5;            // of a trigger's way
 
 // The whole part; what is left waits for the next call.
 int take_whole(double& value) {
@@ -25,9 +29,9 @@ void ControlReader::capture_mouse(bool captured) {
     input_.capture_mouse(captured);
 }
 
-void ControlReader::read_play(StepInput& play) {
+void ControlReader::read_play(StepInput& play, const PadState& pad, double dt_s) {
     const auto axis = [&](int positive, int negative) {
-        return int(input_.is_held(positive)) - int(input_.is_held(negative));
+        return FULL_SPEED * (int(input_.is_held(positive)) - int(input_.is_held(negative)));
     };
     play.right = axis(GLFW_KEY_D, GLFW_KEY_A);
     play.forward = axis(GLFW_KEY_W, GLFW_KEY_S);
@@ -36,35 +40,56 @@ void ControlReader::read_play(StepInput& play) {
     play.jump = input_.was_pressed(GLFW_KEY_SPACE);
     play.throw_ball = input_.was_clicked(GLFW_MOUSE_BUTTON_LEFT);
     play.use = input_.was_pressed(GLFW_KEY_E);
+    play.torch = input_.was_pressed(GLFW_KEY_F);
     play.restart = input_.was_pressed(GLFW_KEY_R);
+    add_pad(pad, pad_, play);
     Vec2 way = input_.take_mouse_way();
     if (unsettled_looks_ > 0) {
         --unsettled_looks_;
         way = {};
     }
-    rest_px_ = {rest_px_.x + way.x, rest_px_.y + way.y};
+    const Vec2 stick = shape_stick(pad.right_stick);
+    const double stick_px = PAD_LOOK_PX_S * std::min(dt_s, LONGEST_LOOK_S);
+    rest_px_ = {rest_px_.x + way.x + stick_px * stick.x, rest_px_.y + way.y + stick_px * stick.y};
     rest_steps_ += input_.wheel_steps();
     play.look_right = take_whole(rest_px_.x);
     play.look_down = take_whole(rest_px_.y);
     play.wheel = take_whole(rest_steps_);
 }
 
-Controls ControlReader::read() {
+Controls ControlReader::read(double dt_s) {
     Controls controls;
+    const PadState pad = read_gamepad();
+    controls.pause = pad_.is_there && pad.start && !pad_.start;
     controls.leave = input_.was_pressed(GLFW_KEY_ESCAPE);
     controls.help = input_.was_pressed(GLFW_KEY_F1);
     controls.panel = input_.was_pressed(GLFW_KEY_F2);
     controls.fullscreen = input_.was_pressed(GLFW_KEY_F11);
     controls.screenshot = input_.was_pressed(GLFW_KEY_F12);
+    controls.files = input_.dropped_files();
     if (has_mouse_) {
-        read_play(controls.play);
+        read_play(controls.play, pad, dt_s);
     } else {
         controls.click = input_.was_clicked(GLFW_MOUSE_BUTTON_LEFT);
         rest_px_ = {};
         rest_steps_ = 0.0;
     }
     input_.forget();
+    pad_ = pad;
     return controls;
+}
+
+void add_pad(const PadState& now, const PadState& before, StepInput& play) {
+    if (!now.is_there || !before.is_there) return;
+    const Vec2 walk = shape_stick(now.left_stick);
+    if (play.right == 0) play.right = int(std::lround(FULL_SPEED * walk.x));
+    if (play.forward == 0) play.forward = -int(std::lround(FULL_SPEED * walk.y));
+    play.run = play.run || now.left_trigger > PULLED;
+    play.crouch = play.crouch || now.b;
+    play.jump = play.jump || (now.a && !before.a);
+    play.use = play.use || (now.x && !before.x);
+    const bool throws = now.right_trigger > PULLED && before.right_trigger <= PULLED;
+    play.throw_ball = play.throw_ball || throws;
 }
 
 StepInput without_presses(const StepInput& input) {
@@ -81,6 +106,7 @@ StepInput with_presses(const StepInput& input, const StepInput& earlier) {
     both.jump = input.jump || earlier.jump;
     both.throw_ball = input.throw_ball || earlier.throw_ball;
     both.use = input.use != earlier.use;  // twice is back again
+    both.torch = input.torch != earlier.torch;
     both.restart = input.restart || earlier.restart;
     both.look_right += earlier.look_right;
     both.look_down += earlier.look_down;

@@ -41,13 +41,9 @@ Size parse_size(const std::string& text) {
     return size;
 }
 
-Scene load_scene(const std::string& name) {
-    return Scene::load(Scene::find_file(name));
-}
-
 void play(const Options& options) {
     SandboxOptions sandbox;
-    sandbox.scene_name = options.scene;
+    sandbox.source.scene = options.scene;
     sandbox.settings = Settings::preset(options.preset);
     sandbox.settings.set_number("scale", options.scale);
     sandbox.preset = options.preset;
@@ -55,10 +51,10 @@ void play(const Options& options) {
     sandbox.threads = options.threads;
     sandbox.record = options.record;
     sandbox.stop = [] { return is_interrupted.load(); };
-    Scene scene = load_scene(options.scene);
+    std::unique_ptr<Stage> stage = load_stage(sandbox.source);
     const Size size = parse_size(options.size);
     Window window({"Tarn sandbox", size.width_px, size.height_px, options.threads});
-    Sandbox(window, std::move(scene), sandbox).run();
+    Sandbox(window, std::move(stage), sandbox).run();
 }
 
 void replay(const Options& options) {
@@ -70,10 +66,10 @@ void replay(const Options& options) {
     how.threads = options.threads;
     how.stop = [] { return is_interrupted.load(); };
     make_look(recorded, how.file);
-    Stage stage(load_scene(recorded.scene));
-    if (options.headless) return play_replay(stage, recorded, how, nullptr);
+    const std::unique_ptr<Stage> stage = load_stage({recorded.scene, {}});
+    if (options.headless) return play_replay(*stage, recorded, how, nullptr);
     Window window({"Tarn sandbox: replay", recorded.width_px, recorded.height_px, options.threads});
-    play_replay(stage, recorded, how, &window);
+    play_replay(*stage, recorded, how, &window);
 }
 
 void add_options(CLI::App& app, Options& options) {
@@ -106,7 +102,8 @@ int run(int argc, char** argv) {
     CLI::App app{"Walk through a scene at night, throw glowing balls, relight dead lanterns."};
     app.footer(
         "W A S D walk, Shift runs, Space jumps, C crouches; the mouse looks, its left button throws a ball.\n"
-        "E: light a lantern. F1: all keys. F2: panel. F12: screenshot. Escape: free the mouse, then quit.");
+        "E: light a lantern. F: a torch. F1: all keys. F2: panel. F12: screenshot. Escape: free the mouse, "
+        "then quit.");
     Options options;
     add_options(app, options);
     try {

@@ -23,7 +23,7 @@ StageLook make_look(const Replay& replay, const std::filesystem::path& file);
 
 // Frame k shows the stage after k * `every` steps; frame 0 the start. `window` null: without one. Error where
 // the level is not the one that the replay was recorded in, and where the play ends in another state than it
-// did then.
+// did then; one line on stderr where the replay is cut off, and does not know.
 void play_replay(Stage& stage, const Replay& replay, const ReplayOptions& options, Window* window);
 
 }  // namespace game

@@ -21,26 +21,33 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
-Sandbox::Sandbox(Window& window, Scene scene, const SandboxOptions& options)
+Sandbox::Sandbox(Window& window, std::unique_ptr<Stage> stage, const SandboxOptions& options)
     : options_(options),
       window_(window),
       engine_(open_engine(&window, options.threads)),
-      stage_(std::move(scene)),
+      source_(options.source),
+      stage_(std::move(stage)),
       controls_(window),
       widgets_(window) {
     look_.settings = options.settings;
     look_.preset = options.preset;
     facts_.shows_help = true;
-    const Size size = window.framebuffer_size();
-    record_.scene = options.scene_name;
-    record_.level_hash = stage_.level_hash();
-    record_.width_px = std::max(1, size.width_px);
-    record_.height_px = std::max(1, size.height_px);
-    record_.seed = options.seed;
-    for (const SettingInfo& row : Settings::list())
-        record_.settings.emplace_back(row.name, options.settings.get(row.name));
+    if (!options.record.empty()) start_record();
     window_.set_vsync(true);
     controls_.capture_mouse(true);
+}
+
+void Sandbox::start_record() {
+    const Size size = window_.framebuffer_size();
+    Replay head;
+    head.scene = source_.scene;
+    head.level_hash = stage_->level_hash();
+    head.width_px = std::max(1, size.width_px);
+    head.height_px = std::max(1, size.height_px);
+    head.seed = options_.seed;
+    for (const SettingInfo& row : Settings::list())
+        head.settings.emplace_back(row.name, options_.settings.get(row.name));
+    recorder_ = std::make_unique<ReplayRecorder>(options_.record, head);
 }
 
 void Sandbox::run() {
@@ -49,6 +56,7 @@ void Sandbox::run() {
         window_.poll_events();
         const double dt_s = seconds_since(last);
         last = Clock::now();
+        if (recorder_) recorder_->flush_when_due();
         if (window_.is_minimized()) {
             std::this_thread::sleep_for(std::chrono::milliseconds(50));
             continue;
@@ -56,7 +64,35 @@ void Sandbox::run() {
         follow_window_size();
         show_frame(dt_s);
     }
-    if (!options_.record.empty()) write_record();
+    end_record();
+}
+
+void Sandbox::end_record() {
+    if (recorder_) recorder_->end(compute_hash(stage_->state()));
+    recorder_.reset();
+}
+
+// What cannot be opened leaves all as it is.
+void Sandbox::open(const std::string& file) {
+    try {
+        const StageSource source = with_file(source_, file);
+        std::unique_ptr<Stage> stage = load_stage(source);
+        const Size size = window_.framebuffer_size();
+        auto view = std::make_unique<View>(engine_, stage->scene(), std::max(1, size.width_px),
+                                           std::max(1, size.height_px));
+        // A record is of one level under one sky.
+        const std::string also = recorder_ ? "; the record has ended" : "";
+        end_record();
+        view_ = std::move(view);
+        stage_ = std::move(stage);
+        source_ = source;
+        waiting_ = {};
+        behind_s_ = 0.0;
+        timings_.clear();
+        report("opened " + file + also);
+    } catch (const Error& error) {
+        report(error.what());
+    }
 }
 
 void Sandbox::follow_window_size() {
@@ -68,18 +104,18 @@ void Sandbox::follow_window_size() {
     const bool fits = view_ && size == Size{view_->width_px(), view_->height_px()};
     // While the user drags the border the size changes with every frame.
     if (fits || (view_ && Clock::now() - wanted_since_ < RESIZE_DELAY)) return;
-    view_ = std::make_unique<View>(engine_, stage_.scene(), std::max(1, size.width_px),
+    view_ = std::make_unique<View>(engine_, stage_->scene(), std::max(1, size.width_px),
                                    std::max(1, size.height_px));
     timings_.clear();
 }
 
 void Sandbox::show_frame(double dt_s) {
     widgets_.begin();
-    const Controls controls = controls_.read();
+    const Controls controls = controls_.read(dt_s);
     handle_controls(controls);
     play(controls, dt_s);
     draw(dt_s);
-    draw_sandbox_panel(look_, facts_, stage_.state());
+    draw_sandbox_panel(look_, facts_, stage_->state());
     const Size size = window_.framebuffer_size();
     view_->present(size.width_px, size.height_px);
     widgets_.end();
@@ -92,6 +128,7 @@ void Sandbox::handle_controls(const Controls& controls) {
     if (controls.leave && !controls_.has_mouse()) window_.request_close();
     const bool had_focus = std::exchange(has_focus_, window_.has_focus());
     if (controls.leave || (had_focus && !has_focus_)) controls_.capture_mouse(false);
+    if (controls.pause) controls_.capture_mouse(!controls_.has_mouse());
     if (controls.panel) {
         facts_.shows_panel = !facts_.shows_panel;
         controls_.capture_mouse(!facts_.shows_panel);
@@ -100,15 +137,16 @@ void Sandbox::handle_controls(const Controls& controls) {
     if (controls.click && !widgets_.wants_mouse()) controls_.capture_mouse(true);
     if (controls.help) facts_.shows_help = !facts_.shows_help;
     const bool begins = controls.play.forward != 0 || controls.play.right != 0;
-    if (begins && stage_.state().step < 2 * STEPS_PER_S) facts_.shows_help = false;
+    if (begins && stage_->state().step < 2 * STEPS_PER_S) facts_.shows_help = false;
     if (controls.fullscreen) window_.set_fullscreen(!window_.is_fullscreen());
     if (controls.screenshot) save_screenshot();
+    for (const std::string& file : controls.files) open(file);
     facts_.has_mouse = controls_.has_mouse();
 }
 
 void Sandbox::step(const StepInput& input) {
-    stage_.step(input);
-    if (!options_.record.empty()) record_.steps.push_back(input);
+    stage_->step(input);
+    if (recorder_) recorder_->add(input);
 }
 
 void Sandbox::play(const Controls& controls, double dt_s) {
@@ -122,12 +160,12 @@ void Sandbox::play(const Controls& controls, double dt_s) {
     }
     for (; behind_s_ >= STEP_S; behind_s_ -= STEP_S) step(std::exchange(waiting_, without_presses(waiting_)));
     facts_.step_ms = 1e3 * seconds_since(start);
-    stage_.show();
+    stage_->show();
 }
 
 void Sandbox::draw(double dt_s) {
     const StageLook look = {look_.settings, options_.seed, look_.glare_strength};
-    facts_.report = view_->draw(stage_.make_frame(look, frame_, dt_s));
+    facts_.report = view_->draw(stage_->make_frame(look, frame_, dt_s));
     timings_.add(facts_.report);
     facts_.cost = timings_.compute_medians();
     // The first frame has none before it.
@@ -140,14 +178,14 @@ void Sandbox::draw(double dt_s) {
 
 // For people, and for tests that look at it.
 void Sandbox::update_title() {
-    const PlayState& state = stage_.state();
+    const PlayState& state = stage_->state();
     const Vec3& feet = state.player.feet;
     const auto balls = std::count_if(state.balls.begin(), state.balls.end(),
                                      [](const BallState& ball) { return ball.is_alive; });
     window_.set_title(fmt::format(
         "Tarn sandbox: {} {}x{} x={:.2f} y={:.2f} z={:.2f} balls={} lit={}/{} {} step={} frame={}",
-        options_.scene_name, facts_.width_px, facts_.height_px, feet.x, feet.y, feet.z, balls,
-        state.relit_count, state.dead_count, facts_.has_mouse ? "playing" : "paused", state.step, frame_));
+        source_.scene, facts_.width_px, facts_.height_px, feet.x, feet.y, feet.z, balls, state.relit_count,
+        state.dead_count, facts_.has_mouse ? "playing" : "paused", state.step, frame_));
 }
 
 void Sandbox::save_screenshot() {
@@ -164,12 +202,6 @@ void Sandbox::save_screenshot() {
 void Sandbox::report(const std::string& message) {
     facts_.message = message;
     reported_at_ = Clock::now();
-}
-
-void Sandbox::write_record() const {
-    Replay record = record_;
-    record.state_hash = compute_hash(stage_.state());
-    save_replay(options_.record, record);
 }
 
 }  // namespace game

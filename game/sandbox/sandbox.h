@@ -8,32 +8,38 @@
 #include <memory>
 #include <string>
 
-#include "../play/replay_file.h"
+#include "../play/replay_recorder.h"
 #include "../recent_timings.h"
 #include "../widgets.h"
 #include "controls.h"
 #include "sandbox_panel.h"
-#include "stage.h"
+#include "stage_source.h"
 
 namespace game {
 
 struct SandboxOptions {
-    std::string scene_name;  // as the user gave it
+    StageSource source;  // of the stage
     Settings settings;
     std::string preset;
     std::uint32_t seed = 0;
     int threads = 0;               // as for EngineOptions
-    std::filesystem::path record;  // written when it ends; empty: nothing
+    std::filesystem::path record;  // written while it is played; empty: nothing
     std::function<bool()> stop;    // asked before each frame; true: quit. Empty: never
 };
 
 class Sandbox {
   public:
-    // Draws in the window, which must outlive it. Error where its OpenGL does not do.
-    Sandbox(Window& window, Scene scene, const SandboxOptions& options);
+    // Draws in the window, which must outlive it. Error where its OpenGL does not do, or the record cannot be
+    // written.
+    Sandbox(Window& window, std::unique_ptr<Stage> stage, const SandboxOptions& options);
 
     // Until the user quits. Error where the record cannot be written.
     void run();
+
+    // For those whom SandboxOptions::stop asks.
+    const Stage& stage() const { return *stage_; }
+    const StageSource& source() const { return source_; }
+    const std::string& message() const { return facts_.message; }
 
   private:
     using Clock = std::chrono::steady_clock;
@@ -47,12 +53,15 @@ class Sandbox {
     void update_title();
     void save_screenshot();
     void report(const std::string& message);
-    void write_record() const;
+    void open(const std::string& file);
+    void start_record();
+    void end_record();
 
     SandboxOptions options_;
     Window& window_;
     Engine engine_;
-    Stage stage_;
+    StageSource source_;
+    std::unique_ptr<Stage> stage_;
     ControlReader controls_;  // before the widgets, which pass on what they get
     Widgets widgets_;
     std::unique_ptr<View> view_;
@@ -60,10 +69,10 @@ class Sandbox {
     SandboxSettings look_;
     SandboxFacts facts_;
     RecentTimings timings_;
-    Replay record_;
-    StepInput waiting_;      // pressed, and no step has come since
-    double behind_s_ = 0.0;  // of the simulation
-    double loop_s_ = 0.0;    // from frame to frame, smoothed
+    std::unique_ptr<ReplayRecorder> recorder_;  // null: nothing is recorded
+    StepInput waiting_;                         // pressed, and no step has come since
+    double behind_s_ = 0.0;                     // of the simulation
+    double loop_s_ = 0.0;                       // from frame to frame, smoothed
     std::uint32_t frame_ = 0;
     bool has_focus_ = false;
     Size wanted_size_;  // and since when

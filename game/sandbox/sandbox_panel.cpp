@@ -22,8 +22,12 @@ constexpr const char* HELP =
     "C, Ctrl    crouch          R          start again\n"
     "Left button  throw a glowing ball; the wheel chooses its colour\n"
     "E          light the lantern you look at, or put it out\n"
+    "F          take out a torch, or put it away\n"
     "Wheel      recolour that lantern; with Shift: dim it\n"
     "F1 help   F2 panel   F11 fullscreen   F12 screenshot\n"
+    "Gamepad: sticks walk and look, A jumps, B crouches, X acts as E,\n"
+    "         right trigger throws, left trigger runs, start pauses\n"
+    "Drop a .gltf or .glb file here to play in it, an .hdr or .exr file as its sky\n"
     "Escape     free the mouse, then quit\n"
     "\n"
     "Some lanterns of the court are dead: find and light them all.";
@@ -37,7 +41,11 @@ void draw_note(const char* id, const ImVec2& share, const std::string& text) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos(ImVec2(share.x * size.x, share.y * size.y), ImGuiCond_Always, share);
     ImGui::SetNextWindowBgAlpha(0.55f);
-    if (ImGui::Begin(id, nullptr, PLAIN)) write(text);
+    if (ImGui::Begin(id, nullptr, PLAIN)) {
+        ImGui::PushTextWrapPos(0.95f * size.x);
+        write(text);
+        ImGui::PopTextWrapPos();
+    }
     ImGui::End();
 }
 

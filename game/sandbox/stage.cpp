@@ -11,7 +11,7 @@ Stage::Stage(Scene scene)
       level_(make_level(scene_)),
       level_hash_(compute_hash(level_)),
       simulation_(level_),
-      actors_(scene_, level_),
+      actors_(scene_, level_, simulation_.state()),
       is_animated_(scene_.duration_s() > 0.0) {
     show();
 }

@@ -46,10 +46,17 @@ rm -rf "$folder"
 mkdir -p "$folder"
 cd "$folder"
 
-"$sandbox" --size 320x180 --scale 0.25 --record run.replay >log.txt 2>&1 &
-viewer=$!
-wait_for "a window, playing" exists
-wait_for "steps pass" has_stepped 20
+# start FILE: a session that is recorded there.
+start() {
+    "$sandbox" --size 320x180 --scale 0.25 --record "$1" >log.txt 2>&1 &
+    viewer=$!
+    wait_for "a window, playing" exists
+    wait_for "steps pass" has_stepped 20
+}
+recorded_steps() { awk '$1 == "step" { n += $2 } END { print n + 0 }' "$1"; }
+has_recorded() { (($(recorded_steps "$1") > $2)); }
+
+start run.replay
 look start
 
 x=$(number x) z=$(number z)
@@ -112,3 +119,23 @@ fails_with "cut.replay: line" "$sandbox" --replay cut.replay --headless --out cu
 fails_with "nowhere.replay: the replay cannot be read" "$sandbox" --replay nowhere.replay --headless --out cut
 fails_with "scene 'nowhere'" "$sandbox" nowhere
 fails_with "no display" env -u DISPLAY -u WAYLAND_DISPLAY "$sandbox"
+
+# Killed without a warning, it leaves what was done until then.
+start killed.replay
+wait_for "the record grows while it plays" has_recorded killed.replay 0
+wait_for "and goes on" has_recorded killed.replay "$(recorded_steps killed.replay)"
+kill -KILL "$viewer"
+wait "$viewer" || true
+viewer=
+"$sandbox" --replay killed.replay --headless --every 1000 --out killed >said.txt 2>&1 || fail "killed: $(cat said.txt)"
+grep -q "cut off after $(recorded_steps killed.replay) steps" said.txt || fail "it says: $(cat said.txt)"
+echo "ok: a killed session is replayed"
+
+start ended.replay
+kill -TERM "$viewer"
+expect_end "SIGTERM"
+[[ $(tail -n 1 ended.replay) == "end $(recorded_steps ended.replay) "* ]] || fail "no end: $(tail -n 1 ended.replay)"
+"$sandbox" --replay ended.replay --headless --every 1000 --out ended >said.txt 2>&1 || fail "ended: $(cat said.txt)"
+[[ ! -s said.txt ]] || fail "it says: $(cat said.txt)"
+echo "ok: SIGTERM ends the record properly"
+fails_with "nowhere/a.replay: the replay cannot be written" "$sandbox" --size 320x180 --record nowhere/a.replay

@@ -3,8 +3,9 @@
 
 #include <fstream>
 
-#include "game/play/replay_file.h"
+#include "game/play/replay_recorder.h"
 #include "game/play/simulation.h"
+#include "support/play_guide.h"
 #include "support/play_levels.h"
 #include "support/process.h"
 
@@ -12,6 +13,7 @@ namespace {
 
 using game::Replay;
 using game::Simulation;
+using tarn::test::Guide;
 using tarn::test::ProcessResult;
 using tarn::test::read_text;
 using tarn::test::run_process;
@@ -21,10 +23,7 @@ const std::string COURT = TARN_BUILD_DIR "/content/lantern_court.glb";
 constexpr int STEPS = 96;
 constexpr int EVERY = 8;
 
-// Walks, turns and, if wanted, throws.
-Replay record_walk(int steps, bool throws) {
-    const game::Level level = game::make_level(game::Scene::load(COURT));
-    Simulation simulation(level);
+Replay make_head(const game::Level& level) {
     Replay replay;
     replay.scene = COURT;
     replay.level_hash = compute_hash(level);
@@ -33,6 +32,14 @@ Replay record_walk(int steps, bool throws) {
     const game::Settings settings = game::Settings::preset("clean");
     for (const game::SettingInfo& row : game::Settings::list())
         replay.settings.emplace_back(row.name, settings.get(row.name));
+    return replay;
+}
+
+// Walks, turns and, if wanted, throws.
+Replay record_walk(int steps, bool throws) {
+    const game::Level level = game::make_level(game::Scene::load(COURT));
+    Simulation simulation(level);
+    Replay replay = make_head(level);
     for (int i = 0; i < steps; ++i) {
         game::StepInput input = tarn::test::go_ahead(i > 40);
         input.look_right = i % 3;
@@ -40,6 +47,28 @@ Replay record_walk(int steps, bool throws) {
         replay.steps.push_back(input);
         simulation.step(input);
     }
+    replay.state_hash = compute_hash(simulation.state());
+    return replay;
+}
+
+// Climbs the court's stair, throws from the gallery by the light of a torch, lights a
+// lantern.
+Replay record_climb() {
+    const game::Level level = game::make_level(game::Scene::load(COURT));
+    Simulation simulation(level);
+    Guide guide(simulation);
+    EXPECT_TRUE(climb_to_the_gallery(guide));
+    game::StepInput hands;
+    hands.torch = hands.throw_ball = true;
+    guide.step(hands);
+    guide.look_at({-17.0, 6.372, -1.5});
+    game::StepInput use;
+    use.use = true;
+    guide.step(use);
+    EXPECT_GT(simulation.state().player.feet.y, 4.0);
+    EXPECT_EQ(simulation.state().relit_count, 1);
+    Replay replay = make_head(level);
+    replay.steps = guide.steps();
     replay.state_hash = compute_hash(simulation.state());
     return replay;
 }
@@ -108,6 +137,52 @@ TEST_F(SandboxReplay, WhatIsThrownIsSeen) {
     EXPECT_NE(walking[2], throwing[2]);
 }
 
+TEST_F(SandboxReplay, ATorchLightsWhatIsNear) {
+    Replay dark = record_walk(EVERY, false), lit = dark;
+    dark.is_complete = lit.is_complete = false;  // the state has the torch in it
+    lit.steps[0].torch = true;
+    for (const bool torch : {false, true}) {
+        game::save_replay(folder_.file("a.replay"), torch ? lit : dark);
+        const ProcessResult result = play(torch ? "lit" : "dark");
+        ASSERT_EQ(result.status, 0) << result.err;
+    }
+    ASSERT_EQ(read_frames("lit").size(), 2u);
+    EXPECT_EQ(read_frames("lit")[0], read_frames("dark")[0]);
+    EXPECT_NE(read_frames("lit")[1], read_frames("dark")[1]);
+}
+
+// The program itself holds the state at the end against the recorded one.
+TEST_F(SandboxReplay, ALongWalkUpTheStairEndsTheSameInTheProgramWithAndWithoutAWindow) {
+    game::save_replay(folder_.file("a.replay"), record_climb());
+    const std::vector<std::string> program = {
+        TARN_BUILD_DIR "/tarn-sandbox", "--replay", folder_.file("a.replay"), "--every", "100", "--out"};
+    std::vector<std::string> headless = program;
+    headless.insert(headless.end(), {folder_.file("headless"), "--headless", "--threads", "1"});
+    ProcessResult result = run_process(headless);
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    if (std::string(TARN_WITH_DISPLAY).empty()) GTEST_SKIP() << "no Xvfb";
+    std::vector<std::string> windowed = program;
+    windowed.insert(windowed.begin(), TARN_WITH_DISPLAY);
+    windowed.insert(windowed.end(), {folder_.file("windowed")});
+    result = run_process(windowed);
+    EXPECT_EQ(result.status, 0) << result.err;
+    ASSERT_GT(read_frames("headless").size(), 2u);
+    EXPECT_EQ(read_frames("headless"), read_frames("windowed"));
+}
+
+TEST_F(SandboxReplay, WhatIsCutOffIsPlayedAsFarAsItGoes) {
+    Replay replay = *replay_;
+    replay.is_complete = false;
+    replay.steps.resize(EVERY);
+    game::save_replay(folder_.file("a.replay"), replay);
+    const ProcessResult result = play("cut");
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.error_lines(), 1) << result.err;
+    EXPECT_NE(result.err.find("a.replay: cut off after 8 steps"), std::string::npos) << result.err;
+    EXPECT_EQ(read_frames("cut").size(), 2u);
+}
+
 TEST_F(SandboxReplay, WhatIsBrokenIsNamedInOneLine) {
     Replay replay = *replay_;
     replay.level_hash ^= 1;
@@ -117,8 +192,8 @@ TEST_F(SandboxReplay, WhatIsBrokenIsNamedInOneLine) {
     replay.settings.emplace_back("colour", "red");
     game::save_replay(folder_.file("a.replay"), replay);
     expect_error("no setting 'colour'");
-    std::ofstream(folder_.file("a.replay")) << "tarn-sandbox-replay 1\nscene x\n";
-    expect_error("line 3: the line 'end' is missing");
+    std::ofstream(folder_.file("a.replay")) << "tarn-sandbox-replay 2\nscene x\n";
+    expect_error("line 3: the file is cut off before its first step");
 }
 
 }  // namespace

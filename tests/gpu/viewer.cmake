@@ -9,6 +9,13 @@ if(WITH_DISPLAY)
   set_tests_properties(game_window_in_xvfb PROPERTIES LABELS gpu TIMEOUT 300)
 endif()
 
+tarn_test(sandbox_files LABEL gpu LIBRARIES tarn_sandbox glfw)
+add_dependencies(test_sandbox_files tarn_scenes tarn_noise_mask)
+if(WITH_DISPLAY)
+  add_test(NAME sandbox_files_in_xvfb COMMAND ${WITH_DISPLAY} $<TARGET_FILE:test_sandbox_files>)
+  set_tests_properties(sandbox_files_in_xvfb PROPERTIES LABELS gpu TIMEOUT 300)
+endif()
+
 find_program(XDOTOOL xdotool)
 find_program(IMPORT import)
 if(WITH_DISPLAY AND XDOTOOL AND IMPORT)
@@ -27,4 +34,5 @@ set_tests_properties(sandbox_in_xvfb PROPERTIES LABELS gpu TIMEOUT 600 COST 600 
 
 # A replay without a window: the same pictures each time.
 tarn_test(sandbox_replay LABEL gpu LIBRARIES tarn_play)
+target_compile_definitions(test_sandbox_replay PRIVATE TARN_WITH_DISPLAY="${WITH_DISPLAY}")
 add_dependencies(test_sandbox_replay tarn-sandbox tarn_scenes)

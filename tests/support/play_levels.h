@@ -56,6 +56,10 @@ class LevelBuilder {
         level_.lanterns.push_back({{}, position, is_dead});
         return *this;
     }
+    LevelBuilder& crate(const game::Vec3& above, double yaw_rad = 0.0) {
+        level_.crates.push_back({above, yaw_rad});
+        return *this;
+    }
     const game::Level& level() const { return level_; }
 
   private:
@@ -70,7 +74,7 @@ class LevelBuilder {
 
 inline game::StepInput go_ahead(bool run = false) {
     game::StepInput input;
-    input.forward = 1;
+    input.forward = game::FULL_SPEED;
     input.run = run;
     return input;
 }
@@ -88,8 +92,8 @@ class RandomPlayer {
         if (left_-- <= 0) {
             left_ = int(random_() % 60);
             input_ = {};
-            input_.right = int(random_() % 3) - 1;
-            input_.forward = int(random_() % 3) - 1;
+            input_.right = game::FULL_SPEED * (int(random_() % 3) - 1);
+            input_.forward = game::FULL_SPEED * (int(random_() % 3) - 1);
             input_.run = random_() % 2 == 0;
             input_.crouch = random_() % 6 == 0;
             input_.look_right = int(random_() % 41) - 20;
@@ -98,6 +102,7 @@ class RandomPlayer {
         input_.jump = random_() % 40 == 0;
         input_.throw_ball = random_() % 30 == 0;
         input_.use = random_() % 20 == 0;
+        input_.torch = random_() % 200 == 0;
         input_.wheel = random_() % 50 == 0 ? int(random_() % 3) - 1 : 0;
         return input_;
     }

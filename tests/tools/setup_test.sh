@@ -36,7 +36,8 @@ make_checkout() {
     stand_in nproc 'echo 4'
     stand_in xdotool 'exit 1'
     printf '#!/bin/bash\necho "$PWD" "$@"\nexit 7\n' >"$SANDBOX/root/build/release/tarn"
-    chmod +x "$SANDBOX/root/build/release/tarn"
+    printf '#!/bin/bash\necho "plays in $PWD" "$@"\n' >"$SANDBOX/root/build/release/tarn-sandbox"
+    chmod +x "$SANDBOX/root/build/release/"tarn{,-sandbox}
 }
 
 # run_tool NAME ARGS...: runs it as a user in the folder `here` would; sets output, errors and status.
@@ -146,11 +147,14 @@ test_a_browser_opens_the_report() {
     expect "what is opened" "$output" "reads $SANDBOX/root/out/report/report.html"
 }
 
-test_main_job_with_a_display_is_the_viewer() {
+test_main_job_with_a_display_is_the_sandbox() {
     make_checkout
     stand_in xdotool 'echo 1280 720'
     DISPLAY=:77 run_tool run
-    expect "tarn's arguments" "$output" "$SANDBOX/here view"
+    expect "what is run" "$output" "plays in $SANDBOX/here"
+    expect "what is built" "$(grep -c '^ninja.* tarn-sandbox' "$SANDBOX/calls")" 1
+    DISPLAY=:77 run_tool run view
+    expect "the viewer" "$output" "$SANDBOX/here view"
 }
 
 test_arguments_of_tools_test_go_to_ctest() {

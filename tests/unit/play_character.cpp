@@ -40,6 +40,16 @@ TEST(Character, WalksAndRunsAtItsSpeed) {
     }
 }
 
+TEST(Character, WalksSlowerWhereAStickAsksForIt) {
+    StepInput half = go_ahead();
+    half.forward = game::FULL_SPEED / 2;
+    Simulation simulation(LevelBuilder().floor(50.0).level());
+    run_steps(simulation, 60, half);
+    const double before = simulation.state().player.feet.z;
+    run_steps(simulation, 60, half);
+    EXPECT_NEAR(before - simulation.state().player.feet.z, 1.5, 0.05);
+}
+
 TEST(Character, TurnsWithTheMouseAndWalksWhereItLooks) {
     Simulation simulation(LevelBuilder().floor(50.0).level());
     StepInput turn;
@@ -94,7 +104,7 @@ TEST(Character, ClimbsStairsAndComesDownAgain) {
     EXPECT_NEAR(simulation.state().player.feet.y, 12 * rise_m, 0.06);
     EXPECT_LT(simulation.state().player.feet.z, -5.5);
     StepInput back;
-    back.forward = -1;
+    back.forward = -game::FULL_SPEED;
     run_steps(simulation, 180, back);
     EXPECT_NEAR(simulation.state().player.feet.y, 0.0, 0.06);
 }

@@ -16,11 +16,12 @@ using tarn::test::LevelBuilder;
 using tarn::test::RandomPlayer;
 using tarn::test::run_steps;
 
-// A room with a stair, a ramp and a low wall.
+// A room with a stair, a ramp, a low wall and crates.
 game::Level make_playground() {
     LevelBuilder builder;
     builder.room(8.0, 5.0).wall_ahead(-3.0, 0.0, 0.5).lantern({1.0, 2.2, 0.0}, true);
     builder.quad({2, 0, 6}, {6, 0, 6}, {6, 2, 2}, {2, 2, 2}).quad({2, 2, 2}, {6, 2, 2}, {6, 2, 0}, {2, 2, 0});
+    for (int i = 0; i < 9; ++i) builder.crate({-4.0 + 0.9 * (i % 3), 3.0, 2.0 + 0.3 * (i / 3)}, 0.1 * i);
     return builder.level();
 }
 
@@ -40,6 +41,10 @@ bool is_finite(const PlayState& state) {
     for (const game::BallState& ball : state.balls) {
         finite =
             finite && is_point(ball.position) && is_point(ball.velocity) && std::isfinite(ball.rotation.w);
+    }
+    for (const game::CrateState& crate : state.crates) {
+        finite =
+            finite && is_point(crate.position) && is_point(crate.velocity) && std::isfinite(crate.rotation.w);
     }
     return finite;
 }
@@ -90,6 +95,10 @@ TEST(Simulation, TwentyThousandRandomStepsStayFiniteAndInTheRoom) {
             if (ball.is_alive && (std::max(std::abs(p.x), std::abs(p.z)) > 8.0 || p.y < 0.0 || p.y > 5.0))
                 ++outside;
         }
+        for (const game::CrateState& crate : state.crates) {
+            const game::Vec3& p = crate.position;
+            if (std::max(std::abs(p.x), std::abs(p.z)) > 8.0 || p.y < 0.0 || p.y > 5.0) ++outside;
+        }
     }
     EXPECT_EQ(outside, 0);
 }
@@ -101,7 +110,13 @@ TEST(Simulation, NobodyAndNoBallGetsOutOfANarrowLowRoom) {
         return std::max(std::abs(p.x), std::abs(p.z)) < HALF_M && p.y > 0.0 && p.y < HEIGHT_M;
     };
     for (const std::uint32_t seed : {1u, 2u, 3u}) {
-        Simulation simulation(LevelBuilder().room(HALF_M, HEIGHT_M).level());
+        LevelBuilder builder;
+        builder.room(HALF_M, HEIGHT_M)
+            .crate({-0.7, 1.0, -0.8})
+            .crate({0.8, 1.0, -0.7})
+            .crate({0.0, 1.0, 0.9});
+        Simulation simulation(builder.level());
+        ASSERT_EQ(simulation.state().crates.size(), 3u);
         RandomPlayer player(seed);
         for (int i = 0; i < 2000; ++i) {
             StepInput input = player.next();
@@ -110,6 +125,8 @@ TEST(Simulation, NobodyAndNoBallGetsOutOfANarrowLowRoom) {
             ASSERT_TRUE(is_inside(simulation.state().player.eye())) << "seed " << seed << ", step " << i;
             for (const game::BallState& ball : simulation.state().balls)
                 ASSERT_TRUE(!ball.is_alive || is_inside(ball.position)) << "seed " << seed << ", step " << i;
+            for (const game::CrateState& crate : simulation.state().crates)
+                ASSERT_TRUE(is_inside(crate.position)) << "seed " << seed << ", step " << i;
         }
     }
 }
@@ -175,6 +192,71 @@ TEST(Relighting, TheWheelRecoloursAndDimsWhatIsLookedAtElseTheNextBall) {
     wheel.wheel = 3;
     simulation.step(wheel);
     EXPECT_EQ(simulation.state().next_color, 3);
+}
+
+TEST(Torch, IsTakenOutAndPutAway) {
+    Simulation simulation(LevelBuilder().floor(20.0).level());
+    run_steps(simulation, 30);
+    EXPECT_FALSE(simulation.state().torch.is_lit);
+    EXPECT_EQ(simulation.state().torch.brightness, 0.0);
+    StepInput torch;
+    torch.torch = true;
+    simulation.step(torch);
+    EXPECT_TRUE(simulation.state().torch.is_lit);
+    // To the right of the eye and ahead of it.
+    const game::Vec3 eye = simulation.state().player.eye(), flame = simulation.state().torch.position;
+    EXPECT_GT(flame.x, eye.x + 0.2);
+    EXPECT_LT(flame.z, eye.z - 0.2);
+    EXPECT_LT(std::hypot(flame.x - eye.x, flame.y - eye.y, flame.z - eye.z), 0.8);
+    StepInput turn;
+    turn.look_right = 714;  // by a quarter
+    simulation.step(turn);
+    EXPECT_GT(simulation.state().torch.position.z, eye.z + 0.2);
+    EXPECT_TRUE(simulation.state().torch.is_lit);
+    simulation.step(torch);
+    EXPECT_FALSE(simulation.state().torch.is_lit);
+    EXPECT_EQ(simulation.state().torch.brightness, 0.0);
+    simulation.step(torch);
+    StepInput restart;
+    restart.restart = true;
+    simulation.step(restart);
+    EXPECT_FALSE(simulation.state().torch.is_lit);
+}
+
+TEST(Torch, FlickersGentlyAndTheSameEachTime) {
+    Simulation first(LevelBuilder().floor(20.0).level()), second(LevelBuilder().floor(20.0).level());
+    StepInput input;
+    input.torch = true;
+    double before = 1.0, least = 9.0, most = 0.0;
+    for (int i = 0; i < 600; ++i) {
+        first.step(input);
+        second.step(input);
+        input.torch = false;
+        const double brightness = first.state().torch.brightness;
+        ASSERT_EQ(brightness, second.state().torch.brightness);
+        ASSERT_TRUE(i == 0 || std::abs(brightness - before) < 0.05) << "step " << i;
+        before = brightness;
+        least = std::min(least, brightness);
+        most = std::max(most, brightness);
+    }
+    EXPECT_GT(least, 0.8);
+    EXPECT_LT(most, 1.2);
+    EXPECT_GT(most - least, 0.1);
+    game::PlayState other = first.state();
+    other.torch.is_lit = false;
+    EXPECT_NE(compute_hash(other), compute_hash(first.state()));
+}
+
+TEST(Torch, StaysOnThisSideOfAWall) {
+    Simulation simulation(LevelBuilder().floor(20.0).wall_ahead(-1.0).level());
+    StepInput input = tarn::test::go_ahead(true);
+    input.torch = true;
+    for (int i = 0; i < 120; ++i) {
+        simulation.step(input);
+        input.torch = false;
+        ASSERT_GT(simulation.state().torch.position.z, -1.0) << "step " << i;
+    }
+    EXPECT_LT(simulation.state().player.feet.z, -0.6);
 }
 
 TEST(LanternCourt, CanBeWalkedInAndHasDeadLanterns) {

@@ -1,0 +1,48 @@
+// Wooden crates that stand about: a person pushes them, balls bounce off them.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "character.h"
+#include "physics.h"
+#include "simulation.h"
+
+namespace game {
+
+class Crates {
+  public:
+    // Those of the level's places that have room and a floor, each dropped onto what is below it. Crates that
+    // fall below `lowest_m` start again.
+    Crates(Physics& physics, const Level& level, btScalar lowest_m);
+    ~Crates();
+    Crates(const Crates&) = delete;
+    Crates& operator=(const Crates&) = delete;
+
+    // All as at the start.
+    void restart();
+    // Pushes what stands in the way of who walks. Call before the world's step of `dt_s` seconds.
+    void push(const Character& character, btScalar dt_s);
+    // Call after the world's step. A crate whose middle has passed a surface of the level is put back.
+    void hold();
+    void describe(std::vector<CrateState>& crates) const;
+
+  private:
+    struct Crate {
+        btTransform start;
+        std::unique_ptr<btRigidBody> body;
+        btVector3 last;  // its middle after the last step
+    };
+
+    std::optional<btTransform> find_place(const CratePlace& place, btScalar depth_m) const;
+    void add(Crate& crate);
+    void remove(Crate& crate);
+
+    Physics& physics_;
+    btScalar lowest_m_;
+    btBoxShape shape_;
+    std::vector<Crate> crates_;
+};
+
+}  // namespace game
