@@ -64,7 +64,7 @@ TEST(Methods, MessagesNameWhatIsWrongAndWhatThereIs) {
 
 TEST(Methods, AReferenceOfTheirOwnBouncesJudgesThem) {
     EXPECT_EQ(count_bounces(parse_methods("uniform,restir-fast")), 1);
-    EXPECT_EQ(count_bounces(parse_methods("path,restir-gi")), 2);
+    EXPECT_EQ(count_bounces(parse_methods("path,restir-gi,clean,clean-noisy")), 2);
     EXPECT_EQ(count_bounces(parse_methods("restir-gi:indirect-bounces=3")), 4);
     EXPECT_EQ(count_bounces(parse_methods("path:indirect=off")), 1);
     try {

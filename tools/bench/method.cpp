@@ -23,6 +23,7 @@ struct MethodRow {
 
 // Histories are full after as many frames as their confidence is capped at.
 constexpr int RESTIR_WARM_UP_FRAMES = 20;
+constexpr int CLEAN_WARM_UP_FRAMES = 24;
 
 constexpr MethodRow METHODS[] = {
     {"uniform", "one light at random, one shadow ray", "direct=uniform", "samples", 0},
@@ -42,6 +43,10 @@ constexpr MethodRow METHODS[] = {
      RESTIR_WARM_UP_FRAMES},
     {"restir-gi", "preset fast, and indirect light by path samples reused over time and neighbours",
      "preset=fast,indirect=restir", "", RESTIR_WARM_UP_FRAMES},
+    {"clean", "what people see: all light, denoised and antialiased, preset clean", "preset=clean", "",
+     CLEAN_WARM_UP_FRAMES},
+    {"clean-noisy", "the samples of clean as they come: neither denoised nor antialiased",
+     "preset=clean,denoise=off,antialias=off", "", 0},
 };
 
 // Applies "setting=value" or "preset=name" and returns what stands before the sign.

@@ -30,11 +30,12 @@ function loadImage(source) {
   });
 }
 
-// Pictures are {label, display, flip, radiance}: PNG as data URLs and half floats in base64. The first is the reference.
+// Pictures are {label, display, flip, radiance}: PNG as data URLs and half floats in base64. It opens with `a` left of `b`,
+// indices of pictures.
 class Viewer {
-  constructor(pictures) {
+  constructor(pictures, a, b) {
     this.pictures = pictures;
-    this.state = {a: 0, b: Math.min(1, pictures.length - 1), mode: "slider", split: 0.5, showsB: true, zoom: 1, x: 0.5, y: 0.5};
+    this.state = {a, b, mode: "slider", split: 0.5, showsB: true, zoom: 1, x: 0.5, y: 0.5};
     this.canvas = element("canvas", {role: "img", "aria-label": "picture viewer", tabindex: "0"});
     this.readout = element("div", {class: "readout quiet"}, "Wheel or + and −: zoom; drag: move, or the slider.");
     this.box = element("div", {class: "viewer"}, this.makeControls(), this.canvas, this.readout);

@@ -8,8 +8,10 @@ function findPicture(document, names, label) {
   return {label, display: name(names.display), flip: name(names.flip), radiance: name(names.radiance)};
 }
 
-function addViewer(box, pictures) {
-  const viewer = new Viewer(pictures.filter((picture) => picture.display));
+// Opens on the pictures `a` and `b`, if the page has them.
+function addViewer(box, pictures, a, b) {
+  const shown = pictures.filter((picture) => picture.display);
+  const viewer = new Viewer(shown, Math.max(0, shown.indexOf(a)), Math.max(0, shown.indexOf(b)));
   VIEWERS.push(viewer);
   box.append(viewer.box);
 }
@@ -56,11 +58,11 @@ function makeSceneSection(scene, settings, number) {
     element("h3", {}, "Slope of log MSE over log time"),
     element("p", {class: "quiet"}, "−1: all error is independent noise. Closer to 0: bias, or noise that is correlated in time."),
     makeSlopeTable(scene), element("h3", {}, "Pictures"));
-  const pictures = [findPicture(number, scene.reference.pictures, "reference")];
-  for (const method of scene.methods) {
-    for (const cell of method.cells) pictures.push(findPicture(number, cell.pictures, `${method.label}, ${describeCell(cell)}`));
-  }
-  addViewer(box, pictures);
+  const reference = findPicture(number, scene.reference.pictures, "reference");
+  const cells = scene.methods.flatMap((method) => method.cells.map((cell) => ({flip: cell.errors.flip_ldr.mean,
+    picture: findPicture(number, cell.pictures, `${method.label}, ${describeCell(cell)}`)})));
+  const best = cells.filter((cell) => cell.picture.display).sort((a, b) => a.flip - b.flip)[0];
+  addViewer(box, [reference, ...cells.map((cell) => cell.picture)], best && best.picture, reference);
   box.append(element("h3", {}, "Counters: all should be 0"), makeCountTable(scene),
     element("details", {}, element("summary", {}, "Settings"), makeSettingTable(scene)));
   return box;
@@ -96,11 +98,12 @@ function makeFlightSection(flight, number) {
     `${flight.frames} frames${flight.interrupted ? ", interrupted" : ""}; references of ${flight.reference_spp} samples a pixel; ` +
     `exposure ${flight.exposure_ev.toFixed(2)} EV. Errors and flicker are means over ${flight.measured.length} measured frames.`),
     makeFlightTable(flight), makeFlightCharts(flight));
-  const pictures = flight.measured.flatMap((moment) => Object.entries(moment.pictures).map(([label, file]) =>
-    findPicture(number, {display: file}, `${label}, frame ${moment.frame}`)));
+  const labels = [...flight.methods.map((method) => method.label), "reference"];
+  const pictures = flight.measured.flatMap((moment) => labels.map((label) =>
+    findPicture(number, {display: moment.pictures[label]}, `${label}, frame ${moment.frame}`)));
   if (pictures.length > 0) {
     box.append(element("h3", {}, "Pictures"));
-    addViewer(box, pictures);
+    addViewer(box, pictures, pictures[0], pictures[labels.length - 1]);
   }
   return box;
 }

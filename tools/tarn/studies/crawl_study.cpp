@@ -22,8 +22,7 @@ using Json = nlohmann::ordered_json;
 
 struct CrawlStudy {
     RenderOptions options;
-    std::string methods =
-        "restir-fast:preset=clean,antialias=off,restir-fast:preset=clean,restir-fast:preset=clean,scale=0.5";
+    std::string methods = "clean:antialias=off,clean,clean:scale=0.5";
     double walk_mm = 3.0;
     int warm_up = 24;
     int frames = 12;
