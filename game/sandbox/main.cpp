@@ -23,6 +23,7 @@ struct Options {
     std::string size = "960x540";
     std::uint32_t seed = 0;
     int threads = 0;
+    double frame_ms = 33.0;
     std::string record;
     std::string replay;
     bool headless = false;
@@ -49,6 +50,7 @@ void play(const Options& options) {
     sandbox.preset = options.preset;
     sandbox.seed = options.seed;
     sandbox.threads = options.threads;
+    sandbox.frame_ms = options.frame_ms;
     sandbox.record = options.record;
     sandbox.stop = [] { return is_interrupted.load(); };
     std::unique_ptr<Stage> stage = load_stage(sandbox.source);
@@ -84,6 +86,11 @@ void add_options(CLI::App& app, Options& options) {
     app.add_option("--seed", options.seed, "Seed of all random numbers")->capture_default_str();
     app.add_option("--threads", options.threads, "Worker threads (0: one per core)")
         ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
+    app.add_option(
+           "--frame-ms", options.frame_ms,
+           "What a frame may take, ms: where it takes longer, less is rendered; 0: nothing is changed")
+        ->check(CLI::Range(0.0, 1000.0))
         ->capture_default_str();
     CLI::Option* record = app.add_option("--record", options.record, "Write what is done to this file");
     CLI::Option* replay =

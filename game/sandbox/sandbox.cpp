@@ -31,6 +31,7 @@ Sandbox::Sandbox(Window& window, std::unique_ptr<Stage> stage, const SandboxOpti
       widgets_(window) {
     look_.settings = options.settings;
     look_.preset = options.preset;
+    look_.frame_ms = float(options.frame_ms);
     facts_.shows_help = true;
     if (!options.record.empty()) start_record();
     window_.set_vsync(true);
@@ -163,8 +164,21 @@ void Sandbox::play(const Controls& controls, double dt_s) {
     stage_->show();
 }
 
+// What is drawn with, which may be less than the user chose.
+Settings Sandbox::govern(double dt_s) {
+    const Ladder ladder(look_.settings);
+    const int before = governor_.rung();
+    // The first frame has none before it.
+    const int rung = frame_ > 0 ? governor_.follow(1e3 * dt_s, look_.frame_ms, ladder.size()) : 0;
+    if (rung != before) timings_.clear();
+    facts_.rung = rung;
+    facts_.rungs = ladder.size();
+    facts_.rung_sentence = ladder.sentence(rung);
+    return ladder.settings(rung);
+}
+
 void Sandbox::draw(double dt_s) {
-    const StageLook look = {look_.settings, options_.seed, look_.glare_strength};
+    const StageLook look = {govern(dt_s), options_.seed, look_.glare_strength};
     facts_.report = view_->draw(stage_->make_frame(look, frame_, dt_s));
     timings_.add(facts_.report);
     facts_.cost = timings_.compute_medians();
@@ -182,10 +196,12 @@ void Sandbox::update_title() {
     const Vec3& feet = state.player.feet;
     const auto balls = std::count_if(state.balls.begin(), state.balls.end(),
                                      [](const BallState& ball) { return ball.is_alive; });
-    window_.set_title(fmt::format(
-        "Tarn sandbox: {} {}x{} x={:.2f} y={:.2f} z={:.2f} balls={} lit={}/{} {} step={} frame={}",
-        source_.scene, facts_.width_px, facts_.height_px, feet.x, feet.y, feet.z, balls, state.relit_count,
-        state.dead_count, facts_.has_mouse ? "playing" : "paused", state.step, frame_));
+    window_.set_title(
+        fmt::format("Tarn sandbox: {} {}x{} x={:.2f} y={:.2f} z={:.2f} yaw={:.2f} balls={} lit={}/{} {} "
+                    "step={} rung={} frame={}",
+                    source_.scene, facts_.width_px, facts_.height_px, feet.x, feet.y, feet.z,
+                    state.player.yaw_rad, balls, state.relit_count, state.dead_count,
+                    facts_.has_mouse ? "playing" : "paused", state.step, facts_.rung, frame_));
 }
 
 void Sandbox::save_screenshot() {

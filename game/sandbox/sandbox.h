@@ -12,6 +12,7 @@
 #include "../recent_timings.h"
 #include "../widgets.h"
 #include "controls.h"
+#include "governor.h"
 #include "sandbox_panel.h"
 #include "stage_source.h"
 
@@ -23,6 +24,7 @@ struct SandboxOptions {
     std::string preset;
     std::uint32_t seed = 0;
     int threads = 0;               // as for EngineOptions
+    double frame_ms = 0.0;         // what a frame may take (Governor); 0: as long as it does
     std::filesystem::path record;  // written while it is played; empty: nothing
     std::function<bool()> stop;    // asked before each frame; true: quit. Empty: never
 };
@@ -50,6 +52,7 @@ class Sandbox {
     void play(const Controls& controls, double dt_s);
     void step(const StepInput& input);
     void draw(double dt_s);
+    Settings govern(double dt_s);
     void update_title();
     void save_screenshot();
     void report(const std::string& message);
@@ -69,6 +72,7 @@ class Sandbox {
     SandboxSettings look_;
     SandboxFacts facts_;
     RecentTimings timings_;
+    Governor governor_;
     std::unique_ptr<ReplayRecorder> recorder_;  // null: nothing is recorded
     StepInput waiting_;                         // pressed, and no step has come since
     double behind_s_ = 0.0;                     // of the simulation

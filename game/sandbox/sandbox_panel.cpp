@@ -97,6 +97,14 @@ void draw_scale_combo(Settings& settings) {
     ImGui::EndCombo();
 }
 
+void draw_governor(float& frame_ms, const SandboxFacts& facts) {
+    ImGui::SliderFloat("hold", &frame_ms, 0.0f, 200.0f, frame_ms > 0.0f ? "%.0f ms a frame" : "off",
+                       ImGuiSliderFlags_AlwaysClamp);
+    add_tooltip("renders less where frames take longer, and more again where there is time to spare");
+    if (frame_ms > 0.0f)
+        write(fmt::format("step {} of {}: {}", facts.rung, facts.rungs - 1, facts.rung_sentence));
+}
+
 void draw_costs(const SandboxFacts& facts) {
     write(fmt::format("{}x{}  {:.1f} ms a frame, {:.1f} frames/s", facts.width_px, facts.height_px,
                       facts.cost.frame_ms, facts.frames_per_s));
@@ -127,6 +135,7 @@ void draw_panel_window(SandboxSettings& settings, const SandboxFacts& facts) {
                          ImGuiWindowFlags_NoSavedSettings)) {
         draw_preset_combo(settings);
         draw_scale_combo(settings.settings);
+        draw_governor(settings.frame_ms, facts);
         ImGui::SliderFloat("glare", &settings.glare_strength, 0.0f, 8.0f, "%.2f x",
                            ImGuiSliderFlags_AlwaysClamp);
         if (ImGui::CollapsingHeader("Cost", ImGuiTreeNodeFlags_DefaultOpen)) draw_costs(facts);

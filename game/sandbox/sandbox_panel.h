@@ -16,6 +16,7 @@ struct SandboxSettings {
     Settings settings;
     std::string preset;  // that was last chosen
     float glare_strength = 1.0f;
+    float frame_ms = 0.0f;  // what a frame may take; 0: as long as it does
 };
 
 struct SandboxFacts {
@@ -26,6 +27,9 @@ struct SandboxFacts {
     int width_px = 0;
     int height_px = 0;
     double frames_per_s = 0.0;
+    int rung = 0;  // of the governor's ladder, of so many
+    int rungs = 1;
+    std::string rung_sentence;
     double step_ms = 0.0;  // of the simulation, in the last frame: of all its steps
     FrameReport report;
     FrameCost cost;

@@ -15,7 +15,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/window_steps.sh"
 
 title() { xdotool getwindowname "$window"; }
 has_title() { [[ $(title) == *" $1 "* ]]; }
-# number NAME: x, y, z, balls or step, as the title has it.
+# number NAME: x, y, z, yaw, balls or step, as the title has it.
 number() { title | sed -n "s/.* $1=\([-0-9.]*\) .*/\1/p"; }
 # In metres, along the floor, from the place at "$1 $2".
 distance() { awk -v x="$(number x)" -v z="$(number z)" -v a="$1" -v b="$2" 'BEGIN { print sqrt((x-a)^2 + (z-b)^2) }'; }
@@ -32,6 +32,7 @@ is_in_court() {
     awk -v x="$(number x)" -v y="$(number y)" -v z="$(number z)" \
         'BEGIN { exit !(x > -18.8 && x < 18.8 && z > -15.8 && z < 15.8 && y > -0.2 && y < 5) }'
 }
+has_turned() { awk -v yaw="$(number yaw)" -v before="$1" 'BEGIN { exit !(yaw > before + 0.05 || yaw < before - 0.05) }'; }
 exists() { window=$(xdotool search --name '^Tarn sandbox: .* playing ' 2>/dev/null | head -n 1) && [[ -n $window ]]; }
 fails_with() {
     local text=$1 status=0
@@ -48,7 +49,7 @@ cd "$folder"
 
 # start FILE: a session that is recorded there.
 start() {
-    "$sandbox" --size 320x180 --scale 0.25 --record "$1" >log.txt 2>&1 &
+    "$sandbox" --size 320x180 --scale 0.25 --frame-ms 1 --record "$1" >log.txt 2>&1 &
     viewer=$!
     wait_for "a window, playing" exists
     wait_for "steps pass" has_stepped 20
@@ -58,6 +59,7 @@ has_recorded() { (($(recorded_steps "$1") > $2)); }
 
 start run.replay
 look start
+wait_for "frames take longer than they may: less is rendered, in two steps" has_title "rung=2"
 
 x=$(number x) z=$(number z)
 xdotool keydown w
@@ -66,9 +68,9 @@ xdotool keydown shift
 wait_for "a wall, a stall or the fountain stops who runs" is_stopped
 is_in_court || fail "it is outside: $(title)"
 xdotool keyup shift keyup w
-look before
+yaw=$(number yaw)
 xdotool mousemove_relative -- 150 -20
-wait_for "the mouse turns the head" differs before "$picture" 0.03
+wait_for "the mouse turns the head" has_turned "$yaw"
 
 xdotool click 1
 wait_for "a ball flies" has_title "balls=1"
@@ -87,6 +89,9 @@ xdotool key F2
 wait_for "F2 goes on" has_title playing
 xdotool key r
 wait_for "R starts again" has_title "balls=0"
+look before
+xdotool mousemove_relative -- 200 -20
+wait_for "and the picture follows the head" differs before "$picture" 0.03
 xdotool windowsize "$window" 400 200
 wait_for "the renderer follows the window" has_title "400x200"
 xdotool key F11
