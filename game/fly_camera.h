@@ -19,9 +19,9 @@ struct FlyCamera {
 
 // What a person asks for during one frame.
 struct FlyInput {
-    Vec3 move;  // right, up (of the world), forward; -1 to 1 each
+    Vec3 move{};  // right, up (of the world), forward; -1 to 1 each
     bool fast = false;
-    Vec2 look_px;              // mouse movement: right, down
+    Vec2 look_px{};            // mouse movement: right, down
     double wheel_steps = 0.0;  // positive: faster
 
     // Whether anything moves or turns the camera; the wheel alone does not.

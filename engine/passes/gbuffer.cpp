@@ -10,15 +10,6 @@
 namespace tarn {
 namespace {
 
-// As glMultiDrawElementsIndirect reads it.
-struct DrawCommand {
-    GLuint index_count;
-    GLuint instance_count;
-    GLuint first_index;
-    GLint base_vertex;
-    GLuint base_instance;  // index into the draw ids
-};
-
 Culling culling_of(const World& world, std::uint32_t instance) {
     if ((world.flags_of(instance) & MATERIAL_DOUBLE_SIDED) != 0u) return Culling::NONE;
     return world.instances[instance].mirrored ? Culling::BACK_MIRRORED : Culling::BACK;
@@ -38,6 +29,15 @@ bool reserve(std::unique_ptr<Buffer>& buffer, const std::string& name, std::size
 }
 
 }  // namespace
+
+// As glMultiDrawElementsIndirect reads it.
+struct GBufferPass::DrawCommand {
+    GLuint index_count;
+    GLuint instance_count;
+    GLuint first_index;
+    GLint base_vertex;
+    GLuint base_instance;  // index into the draw ids
+};
 
 struct GBufferPass::Bucket {
     Culling culling;

@@ -68,6 +68,7 @@ class GBufferPass {
     const GBufferStatistics& statistics() const { return statistics_; }
 
   private:
+    struct DrawCommand;
     struct Bucket;
     struct Target;
 

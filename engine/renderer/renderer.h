@@ -44,7 +44,7 @@ struct FrameInput {
     glm::vec2 jitter_px{0.0f};
     bool average =
         false;  // radiance and display are the mean of this frame and those before it that say so too
-    std::optional<DisplayInput> display;  // none: nothing is shown
+    std::optional<DisplayInput> display = std::nullopt;  // none: nothing is shown
 };
 
 struct FrameOutput {

@@ -39,8 +39,9 @@ class ChangeLog {
         std::uint64_t revision_ = UINT64_MAX;
     };
 
+    ChangeLog() = default;
     // `capacity`: ranges and updates that are remembered, the latest update whatever its size.
-    explicit ChangeLog(std::size_t capacity = DEFAULT_CAPACITY) : capacity_(capacity) {}
+    explicit ChangeLog(std::size_t capacity) : capacity_(capacity) {}
 
     // An update that wrote these ranges, in any order; empty ones do not count, but the update does.
     void append(std::vector<IndexRange> ranges);
@@ -60,7 +61,7 @@ class ChangeLog {
 
     static std::size_t cost_of(const std::vector<IndexRange>& update) { return update.size() + 1; }
 
-    std::size_t capacity_;
+    std::size_t capacity_ = DEFAULT_CAPACITY;
     std::uint64_t revision_ = 0;
     std::deque<std::vector<IndexRange>> updates_;  // the latest ones, up to revision_
     std::size_t cost_ = 0;                         // of all of them

@@ -265,8 +265,9 @@ TEST_F(CoarsePicture, BlackBasesDoNotLendTheirLight) {
     const Case c{{23, 13}, 2, 1};
     const auto found = upsample_light(c, chequered, light);
     for (int i = 0; i < int(found.size()); ++i) {
-        if (!is_black({i % c.size_px.x, i / c.size_px.x}))
+        if (!is_black({i % c.size_px.x, i / c.size_px.x})) {
             EXPECT_NEAR(found[std::size_t(i)].x, 1.0f, 1e-5f) << i;
+        }
     }
 }
 

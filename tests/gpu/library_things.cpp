@@ -115,7 +115,9 @@ TEST_F(Things, TrianglesSayWhatAnimationsMoveAndWhatHasHoles) {
             const tarn::Vec3 &a = before[i].corners[k], &b = after[i].corners[k];
             moves = moves || a.x != b.x || a.y != b.y || a.z != b.z;
         }
-        if (moves) EXPECT_TRUE(after[i].is_animated) << court.node_name(after[i].node);
+        if (moves) {
+            EXPECT_TRUE(after[i].is_animated) << court.node_name(after[i].node);
+        }
         moved += moves ? 1 : 0;
         still += after[i].is_animated ? 0 : 1;
         holes += after[i].has_holes ? 1 : 0;

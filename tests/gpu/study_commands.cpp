@@ -44,10 +44,12 @@ TEST_F(StudyCommand, TheBoilingFilterRemovesEnergyAndMirroringRemovesNone) {
                                          "--warm-up", "8", "--frames", "4"});
     for (const Json& option : found["options"]) {
         const Json& energy = option["energy_added_percent"];
-        if (option["setting"] == "boiling-filter")
+        if (option["setting"] == "boiling-filter") {
             EXPECT_LT(energy["high"].get<double>(), 0.0) << option.dump();
-        if (option["setting"] == "mirror")
+        }
+        if (option["setting"] == "mirror") {
             EXPECT_NEAR(energy["mean"].get<double>(), 0.0, 1.0) << option.dump();
+        }
     }
 }
 
@@ -59,9 +61,12 @@ TEST_F(StudyCommand, LagIsOfWhatHasAPast) {
     for (const Json& step : found["steps"]) {
         EXPECT_EQ(step["progress"].size(), 24u);
         EXPECT_NEAR(step["progress"].back().get<double>(), 1.0, 0.2) << step["step"];
-        if (step["method"] == "ris:samples=32") EXPECT_EQ(step["frames_to_reach"], 1) << step["step"];
-        if (step["method"] == "restir-balanced" && step["step"] == "the camera cuts")
+        if (step["method"] == "ris:samples=32") {
+            EXPECT_EQ(step["frames_to_reach"], 1) << step["step"];
+        }
+        if (step["method"] == "restir-balanced" && step["step"] == "the camera cuts") {
             EXPECT_GT(step["noise"][0].get<double>(), 1.5 * step["noise"].back().get<double>());
+        }
     }
     EXPECT_EQ(found["steps"].size(), 6u);  // nothing there is animated
 }

@@ -67,7 +67,9 @@ TEST_P(DirectLight, UniformHasTheReferencesMean) {
     EXPECT_TRUE(test.passes);
     const bool has_thousands = case_->scene().world.lights.count > 1000;
     EXPECT_LE(test.pooled_fraction, has_thousands ? 1.0 : MAX_POOLED);
-    if (has_thousands) EXPECT_LT(test.standard_error, 0.02 * test.reference_mean);
+    if (has_thousands) {
+        EXPECT_LT(test.standard_error, 0.02 * test.reference_mean);
+    }
 }
 
 TEST_P(DirectLight, PlantedBugsAreFound) {

@@ -248,7 +248,9 @@ RunningMoments find_energy_ratio(DirectLightCase& box, const RenderSettings& set
         ratios.add(sum / (FRAMES * expected));
     }
     for (const auto& [name, value] : renderer.read_counters()) {
-        if (name != "coarse_gaps") EXPECT_EQ(value, 0u) << name;
+        if (name != "coarse_gaps") {
+            EXPECT_EQ(value, 0u) << name;
+        }
     }
     return ratios;
 }

@@ -151,7 +151,9 @@ class Restir : public DirectLightTest {
     // In the scene that every checkout has, the test must also be able to find a bias of 3 % in a tile.
     static void expect_pass(const TileTest& test, const std::string& name) {
         EXPECT_TRUE(test.passes) << name;
-        if (GetParam() == std::string("cornell")) EXPECT_LE(test.detectable_bias, 0.03) << name;
+        if (GetParam() == std::string("cornell")) {
+            EXPECT_LE(test.detectable_bias, 0.03) << name;
+        }
     }
 };
 

@@ -85,8 +85,9 @@ TEST(BrdfFurnace, AWhiteMixOfMetalAndDielectricReflectsAllLight) {
                 EXPECT_GE(share, LEAST) << metallic << ", alpha " << alpha << ", " << angle << " degrees";
                 EXPECT_LE(share, MOST) << metallic << ", alpha " << alpha << ", " << angle << " degrees";
                 // The base under the mixed layer: what the sample formula of glTF's appendix B does.
-                if (metallic == 0.5 && angle == 0.0 && alpha == 0.1)
+                if (metallic == 0.5 && angle == 0.0 && alpha == 0.1) {
                     EXPECT_LT(directional_albedo(shipped_brdf, sample_formula, view_at(angle)), 0.8);
+                }
             }
         }
     }
