@@ -177,6 +177,34 @@ TEST(AntialiasLamps, TheyBecomeSmoothOnceAtRest) {
     EXPECT_GT(find_error_at_rest(64, {"TARN_PLANT_LATEST_EXCESS"}), 0.5 * after_walk);
 }
 
+// Where less is rendered than is shown, pixels without a sample near them take the lamp from those around.
+TEST(AntialiasLamps, TheyHaveNoHolesAtSmallerScales) {
+    for (const double scale : {0.75, 0.5, 0.33}) {
+        AntialiasStage stage(OUTPUT_PX, scale);
+        stage.plant({});
+        stage.has_moved = true;
+        Pixels found;
+        for (int frame = 0; frame < 24; ++frame) {
+            stage.move_camera(WALK);
+            found = stage.render(see_lamp);
+        }
+        const Pixels truth = stage.integrate(see_lamp, 8);
+        const auto is_lamp = [&](int x, int y) { return truth[std::size_t(y * OUTPUT_PX.x + x)].x > 39.9f; };
+        int inside = 0;
+        double darkest = 40.0;
+        constexpr int REACH = 2;  // a pixel of what is rendered
+        for (int y = REACH; y < OUTPUT_PX.y - REACH; ++y) {
+            for (int x = REACH; x < OUTPUT_PX.x - REACH; ++x) {
+                if (!is_lamp(x - REACH, y) || !is_lamp(x + REACH, y)) continue;
+                ++inside;
+                darkest = std::min(darkest, double(found[std::size_t(y * OUTPUT_PX.x + x)].x));
+            }
+        }
+        EXPECT_GT(inside, 0);
+        EXPECT_GT(darkest, 20.0) << scale;
+    }
+}
+
 // The picture goes on through it.
 TEST(AntialiasLamps, AChangeOfScaleCountsThemOnce) {
     for (const double first : {0.5, 1.0}) {

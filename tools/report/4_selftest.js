@@ -25,6 +25,7 @@ async function testViewer(viewer, check) {
     viewer.canvas.dispatchEvent(new PointerEvent(type, {pointerId: 1, bubbles: true,
       clientX: frame.left + share * frame.width, clientY: frame.top + frame.height / 2}));
   };
+  check(viewer.state.a !== viewer.state.b, "the viewer opens on one picture twice");
   viewer.canvas.setPointerCapture = () => {};  // no real pointer is there to capture
   press("slider");
   check(isDrawn(viewer.canvas), "the viewer shows nothing");
