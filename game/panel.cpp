@@ -206,7 +206,11 @@ void draw_cost_section(const ViewerFacts& facts) {
     const FrameReport& report = facts.report;
     draw_pass_rows(facts.cost);
     show_text(fmt::format("{} shadow rays, {:.2f} M rays/s", report.shadow_rays, facts.rays_per_s * 1e-6));
-    show_text(fmt::format("{} of {} triangles drawn", report.triangles_drawn, report.triangles_total));
+    if (report.camera_rays > 0) {
+        show_text(fmt::format("{} camera rays, {} triangles", report.camera_rays, report.triangles_total));
+    } else {
+        show_text(fmt::format("{} of {} triangles drawn", report.triangles_drawn, report.triangles_total));
+    }
 }
 
 void draw_counter_section(const ViewerFacts& facts) {

@@ -196,7 +196,8 @@ void Viewer::collect_facts(FrameReport report, double dt_s) {
     facts_.width_px = view_->width_px();
     facts_.height_px = view_->height_px();
     const double tracing_s = 1e-3 * facts_.cost.compute_tracing_ms();
-    const std::uint64_t rays = facts_.report.shadow_rays + facts_.report.closest_rays;
+    const std::uint64_t rays =
+        facts_.report.shadow_rays + facts_.report.closest_rays + facts_.report.camera_rays;
     facts_.rays_per_s = tracing_s > 0.0 ? double(rays) / tracing_s : 0.0;
     facts_.camera_position_ws = camera_.position_ws;
     // Errors stay until the next message.

@@ -36,6 +36,7 @@ FrameReport describe_frame(const FrameOutput& output, const Renderer& renderer) 
     }
     report.shadow_rays = output.shadow_rays.traced;
     report.closest_rays = output.closest_rays;
+    report.camera_rays = output.camera_rays;
     report.triangles_drawn = output.raster.triangles_drawn;
     report.triangles_total = output.raster.triangles_total;
     report.averaged_frames = renderer.averaged_frames();

@@ -165,6 +165,12 @@ PassRecorder& PassRecorder::write_on_cpu(const Buffer& buffer) {
     return *this;
 }
 
+PassRecorder& PassRecorder::write_on_cpu(const Texture2D& texture) {
+    frame_.written_.emplace(true, texture.id());
+    bytes_written_ += texture.size_bytes();
+    return *this;
+}
+
 PassRecorder& PassRecorder::count(unsigned binding, const Buffer& buffer) {
     buffer.bind_storage(binding);
     return *this;

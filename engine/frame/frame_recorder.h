@@ -108,6 +108,8 @@ class PassRecorder {
     PassRecorder& read_on_cpu(const Buffer& buffer);
     // Writes by the CPU, through the buffer's mapping.
     PassRecorder& write_on_cpu(const Buffer& buffer);
+    // The same of a whole texture, by uploading it.
+    PassRecorder& write_on_cpu(const Texture2D& texture);
     // Adds to counters in storage block `binding`; they need not have been written in this frame.
     PassRecorder& count(unsigned binding, const Buffer& buffer);
     // Draws into `target`, whose colours the pass so writes.

@@ -10,10 +10,11 @@
 namespace tarn {
 
 DriverQuirks find_driver_quirks(const DeviceInfo& device) {
-    DriverQuirks quirks{device.is_software, device.is_software};
+    DriverQuirks quirks{device.is_software, device.is_software, device.is_software};
     const std::map<std::string, bool*> by_name = {
         {"timestamps_at_submission", &quirks.timestamps_at_submission},
         {"groups_are_rows", &quirks.groups_are_rows},
+        {"slow_triangles", &quirks.slow_triangles},
     };
     const char* overrides = std::getenv("TARN_QUIRKS");
     std::istringstream list(overrides != nullptr ? overrides : "");

@@ -15,6 +15,10 @@ struct DriverQuirks {
     // pages; a row of 64 pixels lies in one or two. At 640 x 360 filters take half the time, a whole frame
     // 0.8.
     bool groups_are_rows = false;
+    // Mesa llvmpipe, 22.3.6 (November 2026): the CPU rasterizes, and takes all vertices and triangles through
+    // a single thread, about half a microsecond a triangle. Where there are many for the pixels, a ray for
+    // each pixel on all cores costs less.
+    bool slow_triangles = false;
 };
 
 // The quirks of a device. Environment variable TARN_QUIRKS overrides: a list of NAME or -NAME, separated by

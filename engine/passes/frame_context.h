@@ -17,6 +17,7 @@ namespace tarn {
 struct RayCounts {
     RayBatchResult shadow;
     std::uint64_t closest = 0;
+    std::uint64_t camera = 0;
 };
 
 struct FrameContext {

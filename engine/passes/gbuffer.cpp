@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "passes/culling.h"
+#include "passes/trace_rays.h"
 #include "shared/interface/bindings.h"
 
 namespace tarn {
@@ -98,7 +99,6 @@ void GBufferPass::collect_draws(const FrameContext& frame, const World& world, c
     const std::vector<TriangleRange> ranges = find_visible_ranges(world, camera, margin);
     std::vector<glm::uvec2> ids;
     for (Bucket& bucket : buckets_) bucket.commands.clear();
-    statistics_ = {};
     for (const TriangleRange& range : ranges) {
         const WorldMesh& mesh = world.meshes[world.instances[range.instance].mesh];
         const Culling culling = culling_of(world, range.instance);
@@ -113,9 +113,6 @@ void GBufferPass::collect_draws(const FrameContext& frame, const World& world, c
         statistics_.triangles_drawn += range.triangle_count;
     }
     statistics_.draws = std::uint32_t(ids.size());
-    for (const WorldInstance& instance : world.instances) {
-        statistics_.triangles_total += world.meshes[instance.mesh].triangle_count;
-    }
     if (reserve<glm::uvec2>(draw_ids_, "gbuffer/draw_ids", ids.size())) {
         vertex_array_.add_uint_attribute(1, 2, *draw_ids_, 0, sizeof(glm::uvec2), 1);
     }
@@ -156,10 +153,18 @@ Picture GBufferPass::raster(const FrameContext& frame) {
     return Picture(target, &target->seen);
 }
 
+Picture GBufferPass::find_seen(const FrameContext& frame, const World& world, const CameraRecord& camera) {
+    statistics_ = {};
+    for (const WorldInstance& instance : world.instances)
+        statistics_.triangles_total += world.meshes[instance.mesh].triangle_count;
+    if (frame.plan.primary.by_rays) return trace_primary(frame, camera);
+    collect_draws(frame, world, camera);
+    return raster(frame);
+}
+
 GBuffer GBufferPass::record(const FrameContext& frame, const World& world, const CameraRecord& camera,
                             std::optional<Previous<Surfaces>> previous) {
-    collect_draws(frame, world, camera);
-    const Picture seen = raster(frame);
+    const Picture seen = find_seen(frame, world, camera);
     return {seen, resolve(frame, seen), std::move(previous)};
 }
 

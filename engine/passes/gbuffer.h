@@ -72,6 +72,7 @@ class GBufferPass {
     struct Bucket;
     struct Target;
 
+    Picture find_seen(const FrameContext& frame, const World& world, const CameraRecord& camera);
     void collect_draws(const FrameContext& frame, const World& world, const CameraRecord& camera);
     std::vector<DrawBatch> list_batches(bool coverage) const;
     Picture raster(const FrameContext& frame);

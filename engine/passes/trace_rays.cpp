@@ -1,6 +1,19 @@
 #include "passes/trace_rays.h"
 
+#include "shared/math/random.h"
+
 namespace tarn {
+
+Picture trace_primary(const FrameContext& frame, const CameraRecord& camera) {
+    Picture seen = frame.recorder.take_picture("gbuffer/seen", frame.size_px, GL_RG32UI);
+    frame.pass("gbuffer/rays").write_on_cpu(*seen).run_on_cpu([&] {
+        std::vector<glm::uvec2> answers(frame.pixel_count());
+        frame.rays.camera += frame.tracer.trace_camera_rays({camera, frame.size_px, frame.jitter_px}, answers,
+                                                            {frame.frame, frame.seed, RAY_CAMERA});
+        seen->upload(answers);
+    });
+    return seen;
+}
 
 Answers trace_visibility(const FrameContext& frame, const std::string& name, const Rows& rays,
                          std::size_t ray_count, const CoverageKey& key) {

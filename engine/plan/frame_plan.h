@@ -2,6 +2,7 @@
 // them.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -95,6 +96,18 @@ struct AntialiasPlan {
     int jitter_count = 1;  // frames after which the places in a pixel come again
 };
 
+// Where a frame is drawn.
+struct DrawingPlace {
+    std::uint64_t pixels = 1;
+    bool slow_triangles = false;  // DriverQuirks
+};
+
+// How pixels find what they see.
+struct PrimaryPlan {
+    bool by_rays = false;
+    std::string reason;
+};
+
 // A pass that this frame runs or leaves out.
 struct PlannedPass {
     std::string name;  // as in the timings
@@ -105,6 +118,7 @@ struct PlannedPass {
 struct FramePlan {
     SceneFeatures features;
     std::vector<FeatureReason> feature_reasons;
+    PrimaryPlan primary;
     DirectPlan direct;
     IndirectPlan indirect;
     DenoisePlan denoise;
@@ -117,6 +131,8 @@ struct FramePlan {
     }
 };
 
+PrimaryPlan plan_primary(const PrimarySettings& settings, const FeatureSurvey& survey,
+                         const DrawingPlace& place);
 DirectPlan plan_direct(const DirectSettings& settings);
 IndirectPlan plan_indirect(const IndirectSettings& settings);
 // Debug views are shown as they are.
@@ -126,6 +142,7 @@ DenoisePlan plan_denoise(const RenderSettings& settings, const DirectPlan& direc
 // Debug views too.
 AntialiasPlan plan_antialias(const RenderSettings& settings);
 
-FramePlan make_plan(const FeatureSurvey& survey, const RenderSettings& settings);
+FramePlan make_plan(const FeatureSurvey& survey, const RenderSettings& settings,
+                    const DrawingPlace& place = {});
 
 }  // namespace tarn

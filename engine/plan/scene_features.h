@@ -47,6 +47,8 @@ struct FeatureReason {
 struct FeatureSurvey {
     SceneFeatures features;
     std::vector<FeatureReason> reasons;
+    std::uint64_t triangles = 0;  // of all instances
+    bool partly_covered = false;  // some surface has an alpha test
 };
 
 FeatureSurvey survey_features(const World& world, const ChangeHistory& history = {});

@@ -42,6 +42,20 @@ inline void occlude_one(RTCScene scene, EmbreeContext& context, RTCFilterFunctio
     rtcOccluded1(scene, &ray, &arguments);
 }
 
+// Eight rays that run alike; `valid`: -1 for those that count, else 0.
+inline void intersect_eight(const int* valid, RTCScene scene, EmbreeContext& context,
+                            RTCFilterFunctionN filter, RTCRayHit8& rays) {
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.context = &context;
+    arguments.filter = filter;
+    arguments.flags = RTCRayQueryFlags(arguments.flags | RTC_RAY_QUERY_FLAG_COHERENT);
+    if (filter != nullptr) {
+        arguments.flags = RTCRayQueryFlags(arguments.flags | RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
+    }
+    rtcIntersect8(valid, scene, &rays, &arguments);
+}
+
 #else
 
 using EmbreeContext = RTCIntersectContext;
@@ -59,6 +73,13 @@ inline void intersect_one(RTCScene scene, EmbreeContext& context, RTCFilterFunct
 inline void occlude_one(RTCScene scene, EmbreeContext& context, RTCFilterFunctionN filter, RTCRay& ray) {
     context.filter = filter;
     rtcOccluded1(scene, &context, &ray);
+}
+
+inline void intersect_eight(const int* valid, RTCScene scene, EmbreeContext& context,
+                            RTCFilterFunctionN filter, RTCRayHit8& rays) {
+    context.filter = filter;
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcIntersect8(valid, scene, &context, &rays);
 }
 
 #endif

@@ -26,7 +26,6 @@ struct QueryContext {
     const World* world;
     const EmbreeSnapshot* snapshot;
     CoverageKey key;
-    std::uint32_t pixel;
 };
 
 const QueryContext& context_of(const RTCFilterFunctionNArguments* arguments) {
@@ -56,8 +55,9 @@ void filter_coverage(const RTCFilterFunctionNArguments* arguments) {
     for (unsigned int i = 0; i < n; ++i) {
         if (arguments->valid[i] != -1) continue;
         const glm::vec2 barycentrics(RTCHitN_u(arguments->hit, n, i), RTCHitN_v(arguments->hit, n, i));
-        const bool covered = is_hit_covered(*query.world, query.snapshot->material_rows(), query.key,
-                                            query.pixel, instance_of(query, arguments, i),
+        const std::uint32_t pixel = RTCRayN_id(arguments->ray, n, i);
+        const bool covered = is_hit_covered(*query.world, query.snapshot->material_rows(), query.key, pixel,
+                                            instance_of(query, arguments, i),
                                             RTCHitN_primID(arguments->hit, n, i), barycentrics);
         if (!covered) arguments->valid[i] = 0;
     }
@@ -95,8 +95,23 @@ void fill_ray(RTCRay& target, const RayRecord& ray) {
     target.time = 0.0f;
     target.tfar = ray.max_t;
     target.mask = 0xffffffffu;
-    target.id = 0;
+    target.id = ray.pixel;
     target.flags = 0;
+}
+
+void fill_ray(RTCRay8& target, std::size_t i, const RayRecord& ray) {
+    target.org_x[i] = ray.origin.x;
+    target.org_y[i] = ray.origin.y;
+    target.org_z[i] = ray.origin.z;
+    target.tnear[i] = 0.0f;
+    target.dir_x[i] = ray.direction.x;
+    target.dir_y[i] = ray.direction.y;
+    target.dir_z[i] = ray.direction.z;
+    target.time[i] = 0.0f;
+    target.tfar[i] = ray.max_t;
+    target.mask[i] = 0xffffffffu;
+    target.id[i] = ray.pixel;
+    target.flags[i] = 0;
 }
 
 class EmbreeTracer : public RayTracer {
@@ -136,7 +151,7 @@ class EmbreeTracer : public RayTracer {
     std::optional<Hit> trace_closest(const RayRecord& ray, const CoverageKey& key,
                                      BackFaces back_faces) const override {
         if (classify_ray(ray) != RayState::TRACEABLE) return std::nullopt;
-        QueryContext query = make_query(ray, key, snapshot_at(Moment::PRESENT));
+        QueryContext query = make_query(key, snapshot_at(Moment::PRESENT));
         RTCRayHit ray_hit;
         fill_ray(ray_hit.ray, ray);
         ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -150,12 +165,52 @@ class EmbreeTracer : public RayTracer {
 
   private:
     bool is_unoccluded(const RayRecord& ray, const CoverageKey& key, Moment moment) const override {
-        QueryContext query = make_query(ray, key, snapshot_at(moment));
+        QueryContext query = make_query(key, snapshot_at(moment));
         RTCRay shadow;
         fill_ray(shadow, ray);
         occlude_one(query.snapshot->scene(), query.embree, filter_for(*query.snapshot, BackFaces::HIT),
                     shadow);
         return shadow.tfar >= 0.0f;  // Embree answers with -infinity
+    }
+
+    // Without the filter of facing, which would be called for every triangle on the way: few rays meet a back
+    // first, and those are traced again.
+    void trace_packet(std::span<const RayRecord, PACKET> rays, std::size_t count, const CoverageKey& key,
+                      std::span<Hit, PACKET> hits) const override {
+        QueryContext query = make_query(key, snapshot_at(Moment::PRESENT));
+        alignas(32) int valid[PACKET] = {};
+        RTCRayHit8 packet;
+        for (std::size_t i = 0; i < count; ++i) {
+            valid[i] = classify_ray(rays[i]) == RayState::TRACEABLE ? -1 : 0;
+            fill_ray(packet.ray, i, rays[i]);
+            packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+            packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+        }
+        intersect_eight(valid, query.snapshot->scene(), query.embree,
+                        filter_for(*query.snapshot, BackFaces::HIT), packet);
+        for (std::size_t i = 0; i < count; ++i) {
+            hits[i] = Hit{};
+            if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+            if (may_be_back(*query.snapshot, packet, i)) {
+                hits[i] = trace_closest(rays[i], key, BackFaces::PASS).value_or(Hit{});
+                continue;
+            }
+            hits[i] = {query.snapshot->instance_of(packet.hit.instID[0][i], packet.hit.geomID[i]),
+                       packet.hit.primID[i], glm::vec2(packet.hit.u[i], packet.hit.v[i]), packet.ray.tfar[i]};
+        }
+    }
+
+    // Whether a hit lies on the back of a single-sided surface; of instances that move, whose normals are
+    // those of object space, whether their surface has one.
+    bool may_be_back(const EmbreeSnapshot& snapshot, const RTCRayHit8& packet, std::size_t i) const {
+        const std::uint32_t instance_id = packet.hit.instID[0][i];
+        const std::uint32_t instance = snapshot.instance_of(instance_id, packet.hit.geomID[i]);
+        if ((world_->flags_of(instance) & MATERIAL_DOUBLE_SIDED) != 0u) return false;
+        if (instance == instance_id) return true;
+        const float towards = packet.hit.Ng_x[i] * packet.ray.dir_x[i] +
+                              packet.hit.Ng_y[i] * packet.ray.dir_y[i] +
+                              packet.hit.Ng_z[i] * packet.ray.dir_z[i];
+        return (towards > 0.0f) != world_->instances[instance].mirrored;
     }
 
     static RTCFilterFunctionN filter_for(const EmbreeSnapshot& snapshot, BackFaces back_faces) {
@@ -167,14 +222,12 @@ class EmbreeTracer : public RayTracer {
         return *snapshots_[moment == Moment::PRESENT ? present_ : 1 - present_];
     }
 
-    QueryContext make_query(const RayRecord& ray, const CoverageKey& key,
-                            const EmbreeSnapshot& snapshot) const {
+    QueryContext make_query(const CoverageKey& key, const EmbreeSnapshot& snapshot) const {
         QueryContext query;
         init_context(query.embree);
         query.world = world_;
         query.snapshot = &snapshot;
         query.key = key;
-        query.pixel = ray.pixel;
         return query;
     }
 

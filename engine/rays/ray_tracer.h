@@ -47,6 +47,13 @@ struct RayBatchResult {
         0;  // not finite or without direction: answered "occluded", never given to the tracer
 };
 
+// The rays of a picture: one through each pixel, `jitter_px` from its centre.
+struct CameraRays {
+    CameraRecord camera;
+    glm::ivec2 size_px{0};
+    glm::vec2 jitter_px{0.0f};
+};
+
 class RayTracer {
   public:
     virtual ~RayTracer() = default;
@@ -84,6 +91,21 @@ class RayTracer {
     // threads.
     RayBatchResult trace_closest_hits(std::span<const glm::uvec4> ray_rows, std::span<glm::uvec4> hit_rows,
                                       const CoverageKey& key) const;
+
+    // What each pixel of a picture sees, as the rasterizer draws it: traces `rays` on the worker threads and
+    // gives `seen` instance and primitive a pixel, row by row from the top; INVALID_INDEX where there is
+    // nothing. Returns the number of rays. Same answers for any number of threads.
+    std::uint64_t trace_camera_rays(const CameraRays& rays, std::span<glm::uvec2> seen,
+                                    const CoverageKey& key) const;
+
+  protected:
+    // Camera rays that run alike, of neighbouring pixels.
+    static constexpr std::size_t PACKET = 8;
+
+    // What the first `count` of them meet first, back faces passed; instance INVALID_INDEX: nothing.
+    // Thread-safe.
+    virtual void trace_packet(std::span<const RayRecord, PACKET> rays, std::size_t count,
+                              const CoverageKey& key, std::span<Hit, PACKET> hits) const;
 
   private:
     // The same for a ray that was checked: finite, with a direction, and active.

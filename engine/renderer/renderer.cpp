@@ -141,8 +141,8 @@ void Renderer::upload_frame_blocks(const FrameInput& input) {
 }
 
 FrameOutput Renderer::render(const FrameInput& input) {
-    plan_ = make_plan(survey_, input.settings);
     choose_size(input.settings);
+    plan_ = make_plan(survey_, input.settings, {pixel_count(), recorder_.quirks().slow_triangles});
     recorder_.begin();
     if (plan_.has_light_tree()) fit_light_tree();  // before the frame block, which counts its nodes
     upload_frame_blocks(input);
@@ -169,8 +169,8 @@ FrameOutput Renderer::render(const FrameInput& input) {
     history_.camera = input.camera;
     history_.jitter_px = frame.jitter_px;
     history_.rays = PreviousRays{tracer_.geometry_revision(), {input.frame, input.seed, RAY_SHADOW}};
-    return {*radiance_,  values.display, values.gbuffer,       timings,
-            rays.shadow, rays.closest,   gbuffer_.statistics()};
+    return {*radiance_,  values.display, values.gbuffer, timings,
+            rays.shadow, rays.closest,   rays.camera,    gbuffer_.statistics()};
 }
 
 Image Renderer::read_radiance(const Texture2D& radiance) const {

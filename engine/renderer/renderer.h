@@ -54,6 +54,7 @@ struct FrameOutput {
     FrameTimings timings;
     RayBatchResult shadow_rays;
     std::uint64_t closest_rays = 0;
+    std::uint64_t camera_rays = 0;
     GBufferStatistics raster;
 };
 
@@ -125,6 +126,7 @@ class Renderer {
                  const GBuffer& gbuffer);
     Picture finish(const FrameContext& frame, const GBuffer& gbuffer, const AntialiasInput& input);
     void choose_size(const RenderSettings& settings);
+    std::uint64_t pixel_count() const { return std::uint64_t(size_px_.x) * std::uint64_t(size_px_.y); }
     glm::vec2 find_jitter_px(const FrameInput& input) const;
     void fit_light_tree();
     const RowBuffer* find_blue_noise();

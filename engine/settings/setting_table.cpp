@@ -5,6 +5,11 @@
 namespace tarn {
 namespace {
 
+struct PrimaryPart {
+    PrimarySettings& operator()(RenderSettings& s) const { return s.primary; }
+    const PrimarySettings& operator()(const RenderSettings& s) const { return s.primary; }
+};
+
 struct DirectPart {
     DirectSettings& operator()(RenderSettings& s) const { return s.direct; }
     const DirectSettings& operator()(const RenderSettings& s) const { return s.direct; }
@@ -34,6 +39,15 @@ struct AntialiasPart {
     AntialiasSettings& operator()(RenderSettings& s) const { return s.antialias; }
     const AntialiasSettings& operator()(const RenderSettings& s) const { return s.antialias; }
 };
+
+void add_primary_rows(std::vector<Setting>& table) {
+    SettingRows<PrimaryPart>(table, "").choose(
+        "primary",
+        "How pixels find what they see: GL rasterizes all triangles in view, or a ray each on the "
+        "worker threads; auto: rays where the CPU would rasterize and triangles are many for the "
+        "pixels",
+        &PrimarySettings::visibility, {"auto", "raster", "rays"});
+}
 
 void add_direct_rows(std::vector<Setting>& table) {
     using S = DirectSettings;
@@ -282,6 +296,7 @@ void add_view_rows(std::vector<Setting>& table) {
 const std::vector<Setting>& setting_table() {
     static const std::vector<Setting> table = [] {
         std::vector<Setting> rows;
+        add_primary_rows(rows);
         add_direct_rows(rows);
         add_reuse_rows<DirectReusePart>(rows, "", direct_reuses);
         add_visibility_reuse_row(rows);

@@ -10,10 +10,12 @@
 #include "settings/denoise_settings.h"
 #include "settings/direct_settings.h"
 #include "settings/indirect_settings.h"
+#include "settings/primary_settings.h"
 
 namespace tarn {
 
 struct RenderSettings {
+    PrimarySettings primary;
     DirectSettings direct;
     IndirectSettings indirect;
     DenoiseSettings denoise;

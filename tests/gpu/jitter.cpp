@@ -13,13 +13,14 @@ namespace {
 constexpr int WIDTH_PX = 96;
 constexpr int HEIGHT_PX = 54;
 
-class Jitter : public OnContext<> {
+class Jitter : public OnContext<testing::TestWithParam<PrimaryVisibility>> {
   protected:
     Jitter()
         : scene_(load_test_scene(content_file("cornell"))),
           renderer_(scene_->world, *scene_->tracer, WIDTH_PX, HEIGHT_PX) {
         // Near enough that the walls leave the picture on all sides.
         input_.camera = first_camera(*scene_, double(WIDTH_PX) / HEIGHT_PX);
+        input_.settings.primary.visibility = GetParam();
     }
 
     // What each pixel sees, row by row.
@@ -44,7 +45,7 @@ class Jitter : public OnContext<> {
     FrameInput input_;
 };
 
-TEST_F(Jitter, RasterAndRaysMoveTogether) {
+TEST_P(Jitter, RasterAndRaysMoveTogether) {
     for (const glm::vec2& jitter : {glm::vec2(0.0f), glm::vec2(0.4f, -0.3f), glm::vec2(-0.5f, 0.5f)}) {
         const std::vector<glm::uvec2> seen = see(jitter);
         int different = 0;
@@ -58,7 +59,7 @@ TEST_F(Jitter, RasterAndRaysMoveTogether) {
     }
 }
 
-TEST_F(Jitter, AWholePixelShiftsThePicture) {
+TEST_P(Jitter, AWholePixelShiftsThePicture) {
     const std::vector<glm::vec4> still = find_positions(glm::vec2(0.0f));
     const std::vector<glm::vec4> moved = find_positions(glm::vec2(1.0f, -2.0f));
     int different = 0;
@@ -72,11 +73,16 @@ TEST_F(Jitter, AWholePixelShiftsThePicture) {
     EXPECT_LE(different, WIDTH_PX * HEIGHT_PX / 500);
 }
 
-TEST_F(Jitter, WithoutItNothingChanges) {
+TEST_P(Jitter, WithoutItNothingChanges) {
     const std::vector<glm::uvec2> first = see(glm::vec2(0.0f));
     see(glm::vec2(0.25f, 0.25f));
     EXPECT_EQ(see(glm::vec2(0.0f)), first);
 }
+
+INSTANTIATE_TEST_SUITE_P(DrawnBy, Jitter, testing::Values(PrimaryVisibility::RASTER, PrimaryVisibility::RAYS),
+                         [](const auto& info) {
+                             return info.param == PrimaryVisibility::RASTER ? "raster" : "rays";
+                         });
 
 }  // namespace
 }  // namespace tarn::test

@@ -5,7 +5,9 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <vector>
 
 #include "rays/embree_api.h"
@@ -50,7 +52,39 @@ class BareEmbree {
         });
     }
 
+    // Eight rays of neighbouring pixels at a time, what they meet first thrown away.
+    void trace_closest(const std::vector<RTCRay>& rays) const {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rays.size() / 8, 64), [&](const auto& range) {
+            const FlushDenormals flush;
+            Context context{{}, this};
+            init_context(context.embree);
+            alignas(32) int valid[8];
+            std::fill(std::begin(valid), std::end(valid), -1);
+            for (std::size_t packet = range.begin(); packet != range.end(); ++packet) {
+                RTCRayHit8 hits = make_packet(&rays[8 * packet]);
+                intersect_eight(valid, scene_, context.embree, nullptr, hits);
+            }
+        });
+    }
+
   private:
+    static RTCRayHit8 make_packet(const RTCRay* rays) {
+        RTCRayHit8 packet = {};
+        for (int i = 0; i < 8; ++i) {
+            packet.ray.org_x[i] = rays[i].org_x;
+            packet.ray.org_y[i] = rays[i].org_y;
+            packet.ray.org_z[i] = rays[i].org_z;
+            packet.ray.dir_x[i] = rays[i].dir_x;
+            packet.ray.dir_y[i] = rays[i].dir_y;
+            packet.ray.dir_z[i] = rays[i].dir_z;
+            packet.ray.tfar[i] = rays[i].tfar;
+            packet.ray.mask[i] = rays[i].mask;
+            packet.ray.id[i] = rays[i].id;
+            packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+        }
+        return packet;
+    }
+
     struct Context {
         EmbreeContext embree;  // first, since the filter gets a pointer to it
         const BareEmbree* self;
@@ -59,11 +93,15 @@ class BareEmbree {
     // The scene's own rule, without which the answers would be others.
     static void filter(const RTCFilterFunctionNArguments* arguments) {
         const BareEmbree& self = *reinterpret_cast<const Context*>(arguments->context)->self;
-        const RTCHit& hit = *reinterpret_cast<const RTCHit*>(arguments->hit);
-        const RTCRay& ray = *reinterpret_cast<const RTCRay*>(arguments->ray);
-        const bool covered = is_hit_covered(self.world_, self.world_.material_rows, self.key_, ray.id,
-                                            hit.geomID, hit.primID, glm::vec2(hit.u, hit.v));
-        if (!covered) arguments->valid[0] = 0;
+        const unsigned int n = arguments->N;
+        for (unsigned int i = 0; i < n; ++i) {
+            if (arguments->valid[i] != -1) continue;
+            const glm::vec2 barycentrics(RTCHitN_u(arguments->hit, n, i), RTCHitN_v(arguments->hit, n, i));
+            const bool covered = is_hit_covered(
+                self.world_, self.world_.material_rows, self.key_, RTCRayN_id(arguments->ray, n, i),
+                RTCHitN_geomID(arguments->hit, n, i), RTCHitN_primID(arguments->hit, n, i), barycentrics);
+            if (!covered) arguments->valid[i] = 0;
+        }
     }
 
     void add_instance(std::uint32_t index) const {
@@ -81,7 +119,10 @@ class BareEmbree {
             positions[v] =
                 glm::vec3(instance.world_from_object * glm::vec4(row_xyz(world_.vertex_rows[row]), 1.0f));
         }
-        if (has_alpha_test(world_.flags_of(index))) rtcSetGeometryOccludedFilterFunction(geometry, filter);
+        if (has_alpha_test(world_.flags_of(index))) {
+            rtcSetGeometryOccludedFilterFunction(geometry, filter);
+            rtcSetGeometryIntersectFilterFunction(geometry, filter);
+        }
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(scene_, geometry, index);
         rtcReleaseGeometry(geometry);

@@ -9,6 +9,7 @@
 #include "bench/bare_embree.h"
 #include "gl/fence.h"
 #include "passes/culling.h"
+#include "shared/math/random.h"
 
 namespace tarn {
 namespace {
@@ -135,6 +136,33 @@ BareRays::~BareRays() = default;
 double BareRays::time_ms() {
     std::vector<RTCRay> rays = state_->rays;  // Embree answers in them
     return time_work_ms([&] { state_->embree.trace(rays); });
+}
+
+struct BareCameraRays::State {
+    explicit State(const World& world) : embree(world, {0, 0, RAY_CAMERA}) {}
+    BareEmbree embree;
+    std::vector<RTCRay> rays;
+};
+
+BareCameraRays::BareCameraRays(const World& world, const CameraRecord& camera, int width_px, int height_px)
+    : state_(std::make_unique<State>(world)) {
+    for (int row = 0; row + 2 <= height_px; row += 2) {
+        for (int column = 0; column + 4 <= width_px; column += 4) {
+            for (int i = 0; i < 8; ++i) {
+                const glm::ivec2 pixel(column + i % 4, row + i / 4);
+                const PixelRay view =
+                    camera_ray(camera, glm::vec2(pixel) + 0.5f, glm::vec2(width_px, height_px));
+                state_->rays.push_back(BareEmbree::make_ray({view.origin, RAY_INFINITY, view.direction,
+                                                             std::uint32_t(pixel.y * width_px + pixel.x)}));
+            }
+        }
+    }
+}
+
+BareCameraRays::~BareCameraRays() = default;
+
+double BareCameraRays::time_ms() {
+    return time_work_ms([&] { state_->embree.trace_closest(state_->rays); });
 }
 
 // ---- Raster ----

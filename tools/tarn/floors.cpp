@@ -39,20 +39,20 @@ FloorRow& find_row(std::vector<FloorRow>& rows, const std::string& name) {
     return rows.back();
 }
 
-bool is_raster(const FloorRow& row) {
-    return row.name.starts_with("gbuffer/raster");
-}
+// What pixels see, whoever finds it.
+const std::string SEEN_BY_RASTER = "gbuffer/raster";
+const std::string SEEN_BY_RAYS = "gbuffer/rays";
 
 // The frame's passes: those that rasterize are one row, as are those that trace, since their floors are of
 // all triangles and all rays.
 void add_frame(std::vector<FloorRow>& rows, const FrameTimings& timings) {
     double raster_ms = 0.0, rays_ms = 0.0;
     for (const PassTiming& pass : timings.passes) {
-        if (pass.name.starts_with("gbuffer/raster")) {
+        if (pass.name.starts_with(SEEN_BY_RASTER)) {
             raster_ms += pass.ms;
             continue;
         }
-        if (pass.is_on_cpu) {
+        if (pass.is_on_cpu && pass.name != SEEN_BY_RAYS) {
             rays_ms += pass.ms;
             continue;
         }
@@ -61,27 +61,37 @@ void add_frame(std::vector<FloorRow>& rows, const FrameTimings& timings) {
         row.bytes_read = pass.bytes_read;
         row.bytes_written = pass.bytes_written;
     }
-    find_row(rows, "gbuffer/raster").ms.push_back(raster_ms);
+    if (raster_ms > 0.0) find_row(rows, SEEN_BY_RASTER).ms.push_back(raster_ms);
     FloorRow& rays = find_row(rows, "rays");
     rays.ms.push_back(rays_ms);
     rays.is_on_cpu = true;
     find_row(rows, "frame").ms.push_back(timings.frame_ms);
 }
 
+struct Probes {
+    BareRays rays;
+    BareCameraRays camera_rays;
+    BareRaster raster;
+    EmptyPass empty;
+};
+
 // One round of probes, right after a frame: a busy neighbour slows both alike.
-void add_floors(std::vector<FloorRow>& rows, BareRays& rays, BareRaster& raster, EmptyPass& empty) {
+void add_floors(std::vector<FloorRow>& rows, Probes& probes) {
     double sum = 0.0;
     for (FloorRow& row : rows) {
         if (row.name == "frame") continue;
         double ms = 0.0;
         if (row.is_on_cpu) {
             row.floor = "bare Embree, the same rays";
-            ms = rays.time_ms();
-        } else if (is_raster(row)) {
+            ms = probes.rays.time_ms();
+        } else if (row.name == SEEN_BY_RAYS) {
+            row.floor = "bare Embree, a ray a pixel";
+            ms = probes.camera_rays.time_ms();
+        } else if (row.name == SEEN_BY_RASTER) {
             row.floor = "bare raster, the same triangles";
-            ms = raster.time_ms();
+            ms = probes.raster.time_ms();
         } else {
-            const double empty_ms = empty.time_ms(),
+            const double empty_ms = probes.empty.time_ms(),
                          copy_ms = time_copy_ms(row.bytes_read, row.bytes_written);
             row.floor = fmt::format("{}, {:.1f} MB", empty_ms > copy_ms ? "empty pass" : "copy",
                                     1e-6 * double(row.bytes_read + row.bytes_written));
@@ -146,17 +156,16 @@ void run_floors(FloorsCommand& command) {
         session.renderer().render(input);
     }
     const std::vector<RayRecord> records = capture.take_rays();
-    BareRays rays(world, records);
-    BareRaster raster(world, input.camera, width, height);
-    EmptyPass empty(width, height);
-    raster.time_ms();  // compiles
-    empty.time_ms();
+    Probes probes{BareRays(world, records), BareCameraRays(world, input.camera, width, height),
+                  BareRaster(world, input.camera, width, height), EmptyPass(width, height)};
+    probes.raster.time_ms();  // compiles
+    probes.empty.time_ms();
 
     std::vector<FloorRow> rows;
     for (int frame = 0; frame < command.frames; ++frame) {
         input.frame = std::uint32_t(warm_up_frames + frame);
         add_frame(rows, session.renderer().render(input).timings);
-        add_floors(rows, rays, raster, empty);
+        add_floors(rows, probes);
     }
     Json floors = describe(rows, records.size());
     floors["machine"] = session.describe_machine();

@@ -28,6 +28,7 @@ struct FrameReport {
     std::vector<PassTime> passes;  // in the order in which they ran
     std::uint64_t shadow_rays = 0;
     std::uint64_t closest_rays = 0;
+    std::uint64_t camera_rays = 0;      // where they, not the rasterizer, find what pixels see
     std::uint64_t triangles_drawn = 0;  // rasterized; the rest is out of sight
     std::uint64_t triangles_total = 0;
     std::uint32_t averaged_frames = 1;  // that the picture is the mean of
