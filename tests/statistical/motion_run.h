@@ -127,7 +127,7 @@ class MotionTest : public OnContext<> {
         settings.height = HEIGHT_PX;
         settings.camera = camera;
         settings.bounces = bounces;
-        settings.spp = bounces > 1 ? 1024 : 4096;  // indirect light is noisier on the other side
+        settings.spp = bounces > 1 ? 1024 : 2048;  // indirect light is noisier on the other side
         settings.seed = 5;
         const ReferenceResult result = find_reference(world, tracer, settings);
         return {result.radiance, result.variance};
