@@ -15,7 +15,7 @@ SAME = b"same & <b>'\"same.png"
 BRIGHT = b"sub/<script>alert(1)</script> & \"x\".png"
 MISSING = b"line\nbreak\x01 ]]> &amp;.png"
 EXTRA = b"caf\xc3\xa9 %41 #1?.png"
-BAD_BYTES = b"not utf-8 \xff\xc0\xaf \xed\xa0\x80.png"
+BAD_BYTES = b"not utf-8 \xff\xc0\xaf \xe0\x80\xaf \xed\xa0\x80.png"
 FAILED = {BRIGHT: "failed", MISSING: "missing", EXTRA: "extra", BAD_BYTES: "failed"}
 VOID_TAGS = {"meta", "img"}
 

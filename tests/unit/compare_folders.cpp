@@ -217,11 +217,15 @@ TEST_F(CompareFolders, APictureStandsForOneGoldenAlone) {
     golden("b.exr", make_picture());
     golden("b.hdr.exr", make_picture());
     actual("b.hdr.exr", make_picture());
+    golden("c.exr", make_picture());
+    golden("c.png", make_display(0.5f));
+    std::ofstream(file("actual/c.hdr")) << "whatever it is";
     EXPECT_EQ(compare().status, 3);
+    EXPECT_EQ(json()["counts"]["other kind"], 1);
     EXPECT_EQ(picture("a.exr")["verdict"], "missing");
     EXPECT_EQ(picture("a.png")["verdict"], "passed");
     EXPECT_EQ(picture("b.exr")["verdict"], "missing");
-    EXPECT_EQ(json()["pictures"].size(), 4u);
+    EXPECT_EQ(json()["pictures"].size(), 6u);
 }
 
 TEST_F(CompareFolders, LimitsOfTheUserTakeThePlaceOfTheDefaultOnes) {
@@ -258,12 +262,34 @@ TEST_F(CompareFolders, ThereMustBeSomethingToCompare) {
     expect_error({"compare", goldens, goldens}, "is compared with itself");
     expect_error({"compare", goldens, goldens + "/sub"}, "lies within");
     expect_error({"compare", goldens, goldens + "/a.png"}, "a folder compares only with a folder");
-    expect_error({"compare", goldens, file("nowhere")}, "a folder compares only with a folder");
+    expect_error({"compare", goldens, file("nowhere")}, file("nowhere") + ": no such file or folder");
     expect_error({"compare", goldens, other, "--max", "flip_hdr=0.1"}, "flip_hdr");
     expect_error({"compare", goldens, other, "--html", other + "/page"}, "lies within");
     expect_error({"compare", goldens, other, "--junit", file("nowhere/junit.xml")}, "does not exist");
     EXPECT_FALSE(fs::exists(junit));
     EXPECT_EQ(compare().status, 0) << "all the same the folders compare";
+}
+
+// Half a report would look like one in which the rest passed.
+TEST_F(CompareFolders, ControlCLeavesNoReport) {
+    golden("0.exr", Image(640, 640, 3));
+    actual("0.exr", make_picture());
+    for (int i = 1; i < 20; ++i) {
+        for (const char* folder : {"goldens", "actual"})
+            fs::copy_file(file("goldens/0.exr"), file(fmt::format("{}/{}.exr", folder, i)));
+    }
+    test::Process process({test::tarn_program(), "compare", file("goldens"), file("actual"), "--html",
+                           file("page"), "--junit", file("junit.xml"), "--json", file("out.json")});
+    // The first picture has another size: it is on the page at once.
+    ASSERT_TRUE(process.wait_until([&] { return fs::exists(file("page/pictures/0.exr.actual.png")); },
+                                   std::chrono::seconds(60)))
+        << process.error_text();
+    process.send(SIGINT);
+    const test::ProcessResult result = process.finish();
+    EXPECT_EQ(result.status, 130) << result.out;
+    EXPECT_NE(result.err.find(" of 20 pictures; no report was written\n"), std::string::npos) << result.err;
+    for (const char* name : {"page/index.html", "junit.xml", "out.json"})
+        EXPECT_FALSE(fs::exists(file(name))) << name;
 }
 
 TEST_F(CompareFolders, OptionsOfOneFormAreWrongUsageInTheOther) {

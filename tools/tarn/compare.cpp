@@ -125,10 +125,14 @@ void run_folders(const CompareOptions& options) {
 
 void run_compare(const CompareOptions& options) {
     check_output_folder(options.json);
+    for (const std::filesystem::path& path : {options.reference, options.image}) {
+        if (!std::filesystem::exists(path)) throw Error("{}: no such file or folder", path.string());
+    }
     const bool is_folder = std::filesystem::is_directory(options.reference);
     if (is_folder != std::filesystem::is_directory(options.image)) {
         throw Error("{} is {}, {} is {}: a folder compares only with a folder", options.reference.string(),
-                    is_folder ? "a folder" : "none", options.image.string(), is_folder ? "none" : "a folder");
+                    is_folder ? "a folder" : "a file", options.image.string(),
+                    is_folder ? "a file" : "a folder");
     }
     is_folder ? run_folders(options) : run_pair(options);
 }

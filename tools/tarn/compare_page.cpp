@@ -7,6 +7,7 @@
 
 #include "bench/report.h"
 #include "compare_junit.h"
+#include "compare_pair.h"
 #include "core/display.h"
 #include "core/error.h"
 #include "core/version.h"
@@ -177,7 +178,9 @@ void ComparePage::write() const {
     page +=
         "</main>\n<footer class=\"quiet\"><p>FLIP is the difference that a person sees when the two pictures "
         "alternate, 0 to 1; flip_tile is its mean in the worst square of 16 x 16 pixels. Cyan: pixels that "
-        "are not finite. ";
+        "are "
+        "not finite. ";
+    static_assert(FLIP_TILE_PX == 16, "the sentence above and that of print_comparison say so");
     page += escape_markup(describe_program()) + "</p></footer>\n</body>\n</html>\n";
     write_file(folder_ / "index.html", page);
 }
