@@ -17,7 +17,7 @@ MISSING = b"line\nbreak\x01 ]]> &amp;.png"
 EXTRA = b"caf\xc3\xa9 %41 #1?.png"
 BAD_BYTES = b"not utf-8 \xff\xc0\xaf \xe0\x80\xaf \xed\xa0\x80.png"
 FAILED = {BRIGHT: "failed", MISSING: "missing", EXTRA: "extra", BAD_BYTES: "failed"}
-VOID_TAGS = {"meta", "img"}
+VOID_TAGS = {"meta", "img", "br"}
 
 
 def readable(name):

@@ -120,7 +120,7 @@ std::string make_value_list(const PictureResult& result) {
 std::string make_passed_list(const FolderOptions& options, const std::vector<PictureResult>& results) {
     std::string head = "<tr><th>picture</th>", rows;
     for (const Limit& limit : options.limits)
-        head += fmt::format("<th>{}, {}</th>", limit.key, describe_limit(limit));
+        head += fmt::format("<th>{}<br>{}</th>", limit.key, describe_limit(limit));
     for (const PictureResult& result : results) {
         if (result.verdict != Verdict::PASSED) continue;
         rows += "<tr><td>" + escape_markup(result.name) + "</td>";
