@@ -157,6 +157,25 @@ test_main_job_with_a_display_is_the_sandbox() {
     expect "the viewer" "$output" "$SANDBOX/here view"
 }
 
+test_the_ci_example_installs_and_builds_tarn_alone() {
+    make_checkout
+    mkdir -p "$SANDBOX/root/content/examples"
+    cp "$SOURCE/content/examples/render_and_compare.sh" "$SANDBOX/root/content/examples/"
+    stand_in dpkg-query 'printf "installed one\n"; exit 1'
+    stand_in id 'echo 0'
+    # Each picture's name as its content, and no comparison that could pass.
+    printf '#!/bin/bash\nif [[ $1 == compare ]]; then echo "$2 $3"; exit 3; fi
+        while [[ $1 != --out ]]; do shift; done; echo "$2" >"$2"\n' >"$SANDBOX/root/build/release/tarn"
+    TARN='' run_tool ../content/examples/render_and_compare.sh goldens out
+    expect "status" "$status" 0
+    expect "installed" "$(grep -c 'apt-get .* install --no-install-recommends two$' "$SANDBOX/calls")" 1
+    expect "built" "$(grep '^ninja' "$SANDBOX/calls" | sed 's/.*release //')" "tarn content/cornell.glb"
+    expect "goldens" "$(cat "$SANDBOX"/here/goldens/* | xargs)" \
+        "out/actual/direct.exr out/actual/global.exr out/actual/shown.png"
+    TARN='' run_tool ../content/examples/render_and_compare.sh goldens out
+    expect "tarn's verdict passes through" "$status $output" "3 goldens out/actual"
+}
+
 test_arguments_of_tools_test_go_to_ctest() {
     make_checkout
     run_tool test -L unit

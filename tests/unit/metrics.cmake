@@ -15,3 +15,8 @@ tarn_test(flip_published LABEL unit LIBRARIES tarn_metrics tarn_image_io)
 tarn_test(bias_variance LABEL unit LIBRARIES tarn_metrics)
 tarn_test(compare_command LABEL unit LIBRARIES tarn_image_io nlohmann_json::nlohmann_json)
 add_dependencies(test_compare_command tarn)
+tarn_test(compare_folders LABEL unit LIBRARIES tarn_image_io nlohmann_json::nlohmann_json)
+add_dependencies(test_compare_folders tarn)
+add_test(NAME tools.compare_reports
+         COMMAND python3 ${PROJECT_SOURCE_DIR}/tests/tools/compare_reports_test.py $<TARGET_FILE:tarn>)
+set_tests_properties(tools.compare_reports PROPERTIES LABELS unit TIMEOUT 60)

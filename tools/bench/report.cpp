@@ -143,4 +143,8 @@ void write_report(const std::filesystem::path& file, const std::vector<ReportInp
     write_file(file, page);
 }
 
+std::string load_page_part(const std::string& name) {
+    return load_text(find_parts() / name);
+}
+
 }  // namespace tarn

@@ -1,8 +1,9 @@
-// tarn compare REFERENCE IMAGE: every metric that needs two images, as a table and as JSON.
+// tarn compare REFERENCE IMAGE: every metric that needs two images, as a table and as JSON. With two folders:
+// a verdict for each picture, for people and for CI services.
 #include <fmt/format.h>
 
-#include <cctype>
-#include <cmath>
+#include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -11,14 +12,15 @@
 #include <vector>
 
 #include "commands.h"
-#include "core/display.h"
+#include "compare_folders.h"
+#include "compare_junit.h"
+#include "compare_page.h"
+#include "compare_pair.h"
 #include "core/error.h"
 #include "core/image.h"
 #include "image_io/image_io.h"
-#include "metrics/flip.h"
+#include "interrupt.h"
 #include "metrics/heat_map.h"
-#include "metrics/image_error.h"
-#include "metrics/ssim.h"
 #include "output/output_files.h"
 #include "scene_options.h"
 #include "verdict.h"
@@ -31,191 +33,155 @@ struct CompareOptions {
     std::filesystem::path image;
     std::filesystem::path json;
     std::filesystem::path difference;
+    std::filesystem::path junit;
+    std::filesystem::path html;
     std::optional<float> exposure_ev;
     std::vector<Limit> limits;
 };
 
-// What may have a limit, as JSON names it.
-const std::vector<std::string> KEYS = {"mse",      "rmse", "rel_mse",    "rel_mse_trimmed",
-                                       "rmspe",    "mape", "mean_ratio", "flip_ldr",
-                                       "flip_hdr", "ssim", "non_finite"};
-
-// A pair of pictures: linear for the sums, display-encoded for the eye.
-struct Pair {
-    Image linear_reference;
-    Image linear_image;
-    Image display_reference;
-    Image display_image;
-    bool is_radiance = true;  // false for PNG
-    float exposure_ev = 0;    // of the display transform
-    double scale = 1;         // of the linear metrics
-};
-
-struct Comparison {
-    ImageErrors errors;
-    Image flip_map;  // what --difference shows: HDR-FLIP for radiance, LDR-FLIP for PNG
-    double flip_ldr = 0;
-    std::optional<double> flip_hdr;
-    double ssim = 0;
-};
-
-bool is_png(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    for (char& letter : extension) letter = char(std::tolower(static_cast<unsigned char>(letter)));
-    return extension == ".png";
-}
-
-Image linear_from_display(Image display) {
-    for (float& value : display.values) value = decode_srgb(value);
-    return display;
-}
-
-void check_same_size(const CompareOptions& options, const Image& reference, const Image& image) {
-    if (reference.width == image.width && reference.height == image.height) return;
-    throw Error("{} has {} x {} pixels, {} has {} x {}: only pictures of one size compare",
-                options.reference.string(), reference.width, reference.height, options.image.string(),
-                image.width, image.height);
-}
-
-Pair load_pngs(const CompareOptions& options) {
-    if (options.exposure_ev)
-        throw Error("--exposure applies to radiance, {} is a PNG", options.reference.string());
-    Pair pair;
-    pair.is_radiance = false;
-    pair.display_reference = read_png(options.reference);
-    pair.display_image = read_png(options.image);
-    check_same_size(options, pair.display_reference, pair.display_image);
-    pair.linear_reference = linear_from_display(pair.display_reference);
-    pair.linear_image = linear_from_display(pair.display_image);
-    return pair;
-}
-
-Pair load_radiance(const CompareOptions& options) {
-    Pair pair;
-    pair.linear_reference = read_radiance(options.reference);
-    pair.linear_image = read_radiance(options.image);
-    check_same_size(options, pair.linear_reference, pair.linear_image);
-    pair.exposure_ev =
-        options.exposure_ev ? *options.exposure_ev : measuring_exposure_ev(pair.linear_reference);
-    pair.scale = options.exposure_ev ? std::exp2(double(*options.exposure_ev)) : 1.0;
-    pair.display_reference = display_from_radiance(pair.linear_reference, pair.exposure_ev);
-    pair.display_image = display_from_radiance(pair.linear_image, pair.exposure_ev);
-    return pair;
-}
-
 Pair load_pair(const CompareOptions& options) {
+    const bool is_radiance = !is_png(options.reference);
     if (is_png(options.reference) != is_png(options.image)) {
         throw Error("{} and {}: a PNG compares only with a PNG, radiance only with radiance",
                     options.reference.string(), options.image.string());
     }
-    return is_png(options.reference) ? load_pngs(options) : load_radiance(options);
-}
-
-// Display values are finite even where radiance is not: what was left out of the sums is left out here as
-// well.
-void spoil_non_finite(Pair& pair) {
-    for (std::size_t i = 0; i < pair.linear_reference.pixel_count(); ++i) {
-        if (is_pixel_finite(pair.linear_reference, pair.linear_image, i)) continue;
-        for (std::size_t c = 0; c < 3; ++c) pair.display_image.values[3 * i + c] = std::nanf("");
+    if (options.exposure_ev && !is_radiance)
+        throw Error("--exposure applies to radiance, {} is a PNG", options.reference.string());
+    Image reference = load_picture(options.reference);
+    Image image = load_picture(options.image);
+    if (reference.width != image.width || reference.height != image.height) {
+        throw Error("{} has {} x {} pixels, {} has {} x {}: only pictures of one size compare",
+                    options.reference.string(), reference.width, reference.height, options.image.string(),
+                    image.width, image.height);
     }
+    return prepare_pair(std::move(reference), std::move(image), is_radiance, options.exposure_ev);
 }
 
-Comparison compare(Pair& pair) {
-    Comparison comparison;
-    comparison.errors = compute_image_errors(pair.linear_reference, pair.linear_image, pair.scale);
-    spoil_non_finite(pair);
-    comparison.ssim = compute_ssim(pair.display_reference, pair.display_image);
-    comparison.flip_map = compute_ldr_flip(pair.display_reference, pair.display_image);
-    comparison.flip_ldr = mean_error(comparison.flip_map);
-    if (pair.is_radiance) {
-        comparison.flip_map = compute_hdr_flip(pair.linear_reference, pair.linear_image).map;
-        comparison.flip_hdr = mean_error(comparison.flip_map);
+void run_pair(const CompareOptions& options) {
+    if (!options.junit.empty() || !options.html.empty())
+        throw UsageError("--junit and --html are for two folders; --json and --difference for two pictures");
+    check_output_folder(options.difference);
+    Pair pair = load_pair(options);
+    const Comparison comparison = compare_pair(pair);
+    const nlohmann::ordered_json json = describe_comparison(pair, comparison);
+    if (!options.json.empty()) write_json(options.json, json);
+    if (!options.difference.empty()) write_png(options.difference, heat_map(comparison.flip_map));
+    print_comparison(pair, comparison);
+    check_limits(json, options.limits);
+}
+
+// The number that decided, and its limit: the first that is beyond, or the first of all where none is.
+void print_result(const FolderOptions& options, const PictureResult& result, std::size_t name_width) {
+    std::string decided = result.message;
+    if (result.measured.is_object()) {
+        const Limit& limit = result.breaches.empty() ? options.limits.front() : result.breaches.front().limit;
+        decided = fmt::format("{:<15} {:>12.6g}  {}", limit.key, result.measured.at(limit.key).get<double>(),
+                              describe_limit(limit));
+        if (result.breaches.size() > 1) decided += fmt::format(", and {} more", result.breaches.size() - 1);
     }
-    return comparison;
+    fmt::print("{:<{}}  {:<10}  {}\n", result.name, name_width, verdict_name(result.verdict), decided);
+    std::fflush(stdout);
 }
 
-void print_row(const char* name, double value, const char* meaning) {
-    fmt::print("{:<16} {:>12.6g}  {}\n", name, value, meaning);
-}
-
-void print_table(const Pair& pair, const Comparison& comparison) {
-    const ImageErrors& errors = comparison.errors;
-    fmt::print("{} x {} pixels, {} of them not finite and left out\n", pair.linear_reference.width,
-               pair.linear_reference.height, errors.non_finite);
-    if (!pair.is_radiance) {
-        fmt::print("display values: linear metrics on decoded sRGB, white = 1\n");
-    } else {
-        fmt::print("linear metrics on radiance * {:g}; display metrics at {:+.3f} EV\n", pair.scale,
-                   pair.exposure_ev);
+std::vector<PictureResult> judge_pictures(const FolderOptions& options, const std::vector<PictureCase>& cases,
+                                          ComparePage* page) {
+    std::size_t name_width = 0;
+    for (const PictureCase& picture : cases) name_width = std::max(name_width, picture.name.size());
+    std::vector<PictureResult> results;
+    for (const PictureCase& picture : cases) {
+        if (interrupt_flag()) {
+            throw Error("interrupted after {} of {} pictures; no report was written", results.size(),
+                        cases.size());
+        }
+        SeenPictures seen;
+        results.push_back(judge_case(options, picture, seen));
+        if (page) page->add(results.back(), seen);
+        print_result(options, results.back(), name_width);
     }
-    print_row("mse", errors.mse, "Mean squared error: a few bright pixels decide it.");
-    print_row("rmse", errors.rmse, "Root of mse, in units of radiance.");
-    print_row("rel_mse", errors.rel_mse,
-              "Squared error over squared reference + 0.01: dark and bright count alike.");
-    print_row("rel_mse_trimmed", errors.rel_mse_trimmed,
-              "rel_mse without the worst 0.1 % of pixels (fireflies).");
-    print_row("rmspe", errors.rmspe, "Root mean square error in percent of the reference + 0.01.");
-    print_row("mape", errors.mape, "Mean absolute error in percent of the reference + 0.01.");
-    print_row("mean_ratio", errors.mean_ratio, "Energy: mean of the image over mean of the reference.");
-    print_row("flip_ldr", comparison.flip_ldr,
-              "Visible difference on a screen, 0 to 1 (67 pixels per degree).");
-    if (comparison.flip_hdr) {
-        print_row("flip_hdr", *comparison.flip_hdr, "Visible difference at the worst exposure, 0 to 1.");
-    }
-    print_row("ssim", comparison.ssim, "Structural similarity of the displayed pictures, 1 for equal ones.");
+    return results;
 }
 
-nlohmann::ordered_json make_json(const Pair& pair, const Comparison& comparison) {
-    const ImageErrors& errors = comparison.errors;
-    nlohmann::ordered_json json;
-    json["width"] = pair.linear_reference.width;
-    json["height"] = pair.linear_reference.height;
-    json["non_finite"] = errors.non_finite;
-    json["exposure_ev"] = pair.exposure_ev;
-    json["mse"] = errors.mse;
-    json["rmse"] = errors.rmse;
-    json["rel_mse"] = errors.rel_mse;
-    json["rel_mse_trimmed"] = errors.rel_mse_trimmed;
-    json["rmspe"] = errors.rmspe;
-    json["mape"] = errors.mape;
-    json["mean_ratio"] = errors.mean_ratio;
-    json["flip_ldr"] = comparison.flip_ldr;
-    json["flip_hdr"] = comparison.flip_hdr ? nlohmann::ordered_json(*comparison.flip_hdr) : nullptr;
-    json["ssim"] = comparison.ssim;
-    json["linear_scale"] = pair.scale;
-    return json;
+void run_folders(const CompareOptions& options) {
+    if (!options.difference.empty())
+        throw UsageError("--difference is for two pictures; --html shows folders");
+    check_output_folder(options.junit);
+    FolderOptions folders{options.reference, options.image, options.exposure_ev, options.limits};
+    if (folders.limits.empty()) folders.limits = default_limits();
+    check_folders(folders);
+    const std::vector<PictureCase> cases = find_cases(folders);
+    std::optional<ComparePage> page;
+    if (!options.html.empty()) page.emplace(options.html, folders);
+
+    const std::vector<PictureResult> results = judge_pictures(folders, cases, page ? &*page : nullptr);
+    if (!options.json.empty()) write_json(options.json, make_folder_json(folders, results));
+    if (!options.junit.empty()) write_file(options.junit, make_junit(folders, results));
+    if (page) page->write();
+    fmt::print("{}\n", summarize(results));
+    std::fflush(stdout);
+    const std::size_t failures = count_failures(results);
+    if (failures > 0)
+        throw LimitPassed(fmt::format("{} of {} pictures did not pass", failures, results.size()));
 }
 
 void run_compare(const CompareOptions& options) {
     check_output_folder(options.json);
-    check_output_folder(options.difference);
-    Pair pair = load_pair(options);
-    const Comparison comparison = compare(pair);
-    const nlohmann::ordered_json json = make_json(pair, comparison);
-    if (!options.json.empty()) write_json(options.json, json);
-    if (!options.difference.empty()) write_png(options.difference, heat_map(comparison.flip_map));
-    print_table(pair, comparison);
-    check_limits(json, options.limits);
+    for (const std::filesystem::path& path : {options.reference, options.image}) {
+        if (!std::filesystem::exists(path)) throw Error("{}: no such file or folder", path.string());
+    }
+    const bool is_folder = std::filesystem::is_directory(options.reference);
+    if (is_folder != std::filesystem::is_directory(options.image)) {
+        throw Error("{} is {}, {} is {}: a folder compares only with a folder", options.reference.string(),
+                    is_folder ? "a folder" : "a file", options.image.string(),
+                    is_folder ? "a file" : "a folder");
+    }
+    is_folder ? run_folders(options) : run_pair(options);
+}
+
+std::string describe_default_limits() {
+    std::string text;
+    for (const Limit& limit : default_limits())
+        text += fmt::format(" {} {}={:g}", limit.is_greatest ? "--max" : "--min", limit.key, limit.value);
+    return text;
 }
 
 }  // namespace
 
 void add_compare_command(CLI::App& app) {
     const auto options = std::make_shared<CompareOptions>();
-    CLI::App* command = app.add_subcommand("compare", "Measure an image against a reference");
-    command->add_option("REFERENCE", options->reference, "The reference: .exr, .hdr or .png")->required();
-    command->add_option("IMAGE", options->image, "The picture under test, of the same kind and size")
+    CLI::App* command = app.add_subcommand(
+        "compare", "Measure an image against a reference, or a folder of images against a folder of goldens");
+    command
+        ->add_option("REFERENCE", options->reference,
+                     "The reference: .exr, .hdr or .png; or a folder of goldens")
         ->required();
-    command->add_option("--json", options->json, "Write the numbers to this JSON file");
-    command->add_option("--difference", options->difference, "Write the FLIP heat map to this PNG file");
     command
         ->add_option(
-            "--exposure", options->exposure_ev,
-            "Scale radiance by 2^EV for all metrics; without it the linear metrics take raw radiance and the "
-            "display metrics an exposure found from the reference")
+            "IMAGE", options->image,
+            "The picture under test, of the same kind and size; or a folder of pictures with the same "
+            "paths in it")
+        ->required();
+    command->add_option("--json", options->json, "Write the numbers to this JSON file");
+    command->add_option("--difference", options->difference,
+                        "Two pictures: write the FLIP heat map to this PNG file");
+    command->add_option("--junit", options->junit, "Two folders: write a JUnit report to this XML file");
+    command->add_option(
+        "--html", options->html,
+        "Two folders: write a page into this folder (index.html) that shows what did not pass");
+    command
+        ->add_option("--exposure", options->exposure_ev,
+                     "Scale radiance by 2^EV for all metrics, not PNGs; without it the linear metrics take "
+                     "raw radiance and the "
+                     "display metrics an exposure found from the reference")
         ->check(make_finite_range(MIN_EXPOSURE_EV, MAX_EXPOSURE_EV))
         ->type_name("EV");
-    add_limit_options(*command, KEYS, options->limits);
+    add_limit_options(*command, compared_keys(), options->limits);
+    command->footer(
+        fmt::format("Two folders: missing and extra pictures, and those of another size or kind, do not pass "
+                    "either. Limits "
+                    "hold for each picture.\nWithout --max and --min they are:{}\nflip is flip_hdr of "
+                    "radiance and flip_ldr "
+                    "of PNGs; flip_tile is its mean in the worst square of {} x {} pixels.",
+                    describe_default_limits(), FLIP_TILE_PX, FLIP_TILE_PX));
     command->callback([options] { run_compare(*options); });
 }
 

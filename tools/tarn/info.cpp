@@ -195,7 +195,7 @@ std::string shown_bounds(const Json& bounds) {
     return corner("lower") + " to " + corner("upper") + " m";
 }
 
-void print_table(const Json& info) {
+void print_info(const Json& info) {
     const Json& lights = info["lights"];
     print_row("file", info["file"]);
     print_row("scene", info["scene"]);
@@ -223,7 +223,7 @@ void run_info(const InfoOptions& options) {
     check_output_folder(options.json);
     const Scene scene = load_gltf(resolve_scene_path(options.scene), {.scene_index = options.scene_index});
     const Json info = describe_scene(options, scene);
-    print_table(info);
+    print_info(info);
     if (!options.json.empty()) write_json(options.json, info);
 }
 

@@ -47,18 +47,31 @@ void add_limit_options(CLI::App& command, const std::vector<std::string>& keys, 
     add("--min", "below", false);
 }
 
-void check_limits(const nlohmann::ordered_json& measured, const std::vector<Limit>& limits) {
-    std::vector<std::string> passed;
+std::string describe_limit(const Limit& limit) {
+    return fmt::format("{} {:g}", limit.is_greatest ? "at most" : "at least", limit.value);
+}
+
+std::string describe_breach(const Breach& breach) {
+    return fmt::format("{} is {:g}, {} is allowed", breach.limit.key, breach.value,
+                       describe_limit(breach.limit));
+}
+
+std::vector<Breach> find_breaches(const nlohmann::ordered_json& measured, const std::vector<Limit>& limits) {
+    std::vector<Breach> breaches;
     for (const Limit& limit : limits) {
         const auto& value = measured.at(limit.key);
         if (value.is_null()) throw Error("{} is not measured for these pictures", limit.key);
         const double number = value.get<double>();
         const bool holds = limit.is_greatest ? number <= limit.value : number >= limit.value;
-        if (holds) continue;  // NaN never does
-        passed.push_back(fmt::format("{} is {:g}, {} {:g} is allowed", limit.key, number,
-                                     limit.is_greatest ? "at most" : "at least", limit.value));
+        if (!holds) breaches.push_back({limit, number});  // NaN never holds
     }
-    if (!passed.empty()) throw LimitPassed(fmt::format("{}", fmt::join(passed, "\ntarn: ")));
+    return breaches;
+}
+
+void check_limits(const nlohmann::ordered_json& measured, const std::vector<Limit>& limits) {
+    std::vector<std::string> lines;
+    for (const Breach& breach : find_breaches(measured, limits)) lines.push_back(describe_breach(breach));
+    if (!lines.empty()) throw LimitPassed(fmt::format("{}", fmt::join(lines, "\ntarn: ")));
 }
 
 }  // namespace tarn

@@ -25,8 +25,23 @@ struct Limit {
 // key, and for a value that is not a number.
 void add_limit_options(CLI::App& command, const std::vector<std::string>& keys, std::vector<Limit>& limits);
 
-// Throws LimitPassed where a value of `measured` lies beyond one of `limits`, or is not a number; Error where
-// it was not measured.
+// "at most 0.05"
+std::string describe_limit(const Limit& limit);
+
+// A limit that was passed, and the value that did so.
+struct Breach {
+    Limit limit;
+    double value = 0.0;
+};
+
+// "flip is 0.06, at most 0.05 is allowed"
+std::string describe_breach(const Breach& breach);
+
+// Which of `limits` the values of `measured` pass, or are no number for; in the order of `limits`. Throws
+// Error for a value that was not measured.
+std::vector<Breach> find_breaches(const nlohmann::ordered_json& measured, const std::vector<Limit>& limits);
+
+// Throws LimitPassed where find_breaches finds any.
 void check_limits(const nlohmann::ordered_json& measured, const std::vector<Limit>& limits);
 
 }  // namespace tarn
