@@ -73,6 +73,18 @@ bool Physics::is_surface_between(const btVector3& from, const btVector3& to) con
     return way.hasHit();
 }
 
+btScalar Physics::sweep(const btConvexShape& shape, const btVector3& from, const btVector3& to,
+                        int mask) const {
+    btCollisionWorld::ClosestConvexResultCallback hit(from, to);
+    hit.m_collisionFilterGroup = GROUP_BALL;
+    hit.m_collisionFilterMask = mask;
+    btTransform start = btTransform::getIdentity(), end = btTransform::getIdentity();
+    start.setOrigin(from);
+    end.setOrigin(to);
+    world_.convexSweepTest(&shape, start, end, hit);
+    return hit.m_closestHitFraction;
+}
+
 bool Physics::touches(const btConvexShape& shape, const btTransform& place, int mask) {
     btCollisionObject object;
     object.setCollisionShape(const_cast<btConvexShape*>(&shape));

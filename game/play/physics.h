@@ -41,6 +41,10 @@ class Physics {
     // Whether a surface of the level lies between two points.
     bool is_surface_between(const btVector3& from, const btVector3& to) const;
 
+    // How much of the way a shape gets from `from` towards `to` before it is stopped by what is in one of the
+    // groups of `mask`; 1: all of it.
+    btScalar sweep(const btConvexShape& shape, const btVector3& from, const btVector3& to, int mask) const;
+
     // Whether a shape would be inside of what is in one of the groups of `mask`.
     bool touches(const btConvexShape& shape, const btTransform& place, int mask);
 

@@ -7,12 +7,13 @@
 #include <sstream>
 
 #include "../tarn_names.h"
+#include "simulation.h"
 
 namespace game {
 namespace {
 
 constexpr const char* TITLE = "tarn-sandbox-replay";
-constexpr int VERSION = 2;
+constexpr int VERSION = 3;
 constexpr std::size_t STEP_LIMIT = 24u * 3600u * 60u;  // a day
 constexpr int SIZE_LIMIT_PX = 16384;
 
@@ -115,7 +116,7 @@ class Reader {
     }
 
     void check_head() const {
-        for (const char* kind : {"scene", "level", "size", "seed"}) {
+        for (const char* kind : {"scene", "level", "size", "seed", "fireflies"}) {
             if (!seen_.contains(kind)) throw Error(fmt::format("the line '{}' is missing", kind));
         }
     }
@@ -135,6 +136,8 @@ class Reader {
             replay_.height_px = int(words.take_number("the height", 1, SIZE_LIMIT_PX));
         } else if (kind == "seed") {
             replay_.seed = std::uint32_t(words.take_number("the seed", 0, 0xffffffffll));
+        } else if (kind == "fireflies") {
+            replay_.fireflies = int(words.take_number("the number of fireflies", 0, FIREFLY_LIMIT));
         } else if (kind == "set") {
             const std::string name = words.take("the setting's name");
             replay_.settings.emplace_back(name, words.take("the setting's value"));
@@ -189,9 +192,9 @@ class Reader {
 }  // namespace
 
 std::string describe_head(const Replay& replay) {
-    std::string text =
-        fmt::format("{} {}\nscene {}\nlevel {:016x}\nsize {} {}\nseed {}\n", TITLE, VERSION, replay.scene,
-                    replay.level_hash, replay.width_px, replay.height_px, replay.seed);
+    std::string text = fmt::format("{} {}\nscene {}\nlevel {:016x}\nsize {} {}\nseed {}\nfireflies {}\n",
+                                   TITLE, VERSION, replay.scene, replay.level_hash, replay.width_px,
+                                   replay.height_px, replay.seed, replay.fireflies);
     for (const auto& [name, value] : replay.settings) text += fmt::format("set {} {}\n", name, value);
     return text;
 }

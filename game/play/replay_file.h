@@ -1,10 +1,11 @@
 // What somebody did in the sandbox, step by step, as a text file.
 //
-//     tarn-sandbox-replay 2
+//     tarn-sandbox-replay 3
 //     scene NAME                     a file, or a scene of the project
 //     level HASH                     of what is solid: 16 hexadecimal digits
 //     size WIDTH HEIGHT              of the pictures, pixels
 //     seed NUMBER                    of all random numbers
+//     fireflies NUMBER               that were wished for
 //     set NAME VALUE                 a setting; once for each
 //     step COUNT RIGHT FORWARD KEYS LOOK_RIGHT LOOK_DOWN WHEEL
 //     end STEPS HASH                 how many steps those were, and the state after them
@@ -32,6 +33,7 @@ struct Replay {
     int width_px = 0;
     int height_px = 0;
     std::uint32_t seed = 0;
+    int fireflies = 0;
     std::vector<std::pair<std::string, std::string>> settings;  // name, value
     std::vector<StepInput> steps;
     std::uint64_t state_hash = 0;  // after the last step

@@ -7,6 +7,7 @@
 #include "balls.h"
 #include "character.h"
 #include "crates.h"
+#include "fireflies.h"
 #include "hash.h"
 #include "lantern_rules.h"
 #include "physics.h"
@@ -34,16 +35,8 @@ btVector3 to_bullet(const Vec3& direction) {
 }
 
 // How far a ball's middle gets from `from` towards `to`; 1: all the way.
-double sweep_ball(Physics& physics, const btVector3& from, const btVector3& to) {
-    const btSphereShape ball{btScalar(BALL_RADIUS_M)};
-    btCollisionWorld::ClosestConvexResultCallback hit(from, to);
-    hit.m_collisionFilterGroup = GROUP_BALL;
-    hit.m_collisionFilterMask = GROUP_LEVEL | GROUP_CRATE;
-    btTransform start = btTransform::getIdentity(), end = btTransform::getIdentity();
-    start.setOrigin(from);
-    end.setOrigin(to);
-    physics.world().convexSweepTest(&ball, start, end, hit);
-    return double(hit.m_closestHitFraction);
+double sweep_ball(const Physics& physics, const btVector3& from, const btVector3& to) {
+    return double(physics.sweep(btSphereShape(btScalar(BALL_RADIUS_M)), from, to, GROUP_LEVEL | GROUP_CRATE));
 }
 
 // Where the feet are when the eye has dropped to the floor. Many scenes have none below their camera: those
@@ -77,7 +70,8 @@ struct Simulation::Parts {
           character(physics, start_feet),
           balls(physics, btScalar(lowest_m)),
           crates(physics, level, btScalar(lowest_m)),
-          lanterns(level.lanterns) {
+          lanterns(level.lanterns),
+          fireflies(physics, level, level.fireflies) {
         restart();
     }
 
@@ -160,6 +154,7 @@ struct Simulation::Parts {
         state.player.is_crouching = character.is_crouching();
         balls.describe(state.balls);
         crates.describe(state.crates);
+        fireflies.describe(state.step, state.fireflies);
     }
 
     Physics physics;
@@ -171,6 +166,7 @@ struct Simulation::Parts {
     Balls balls;
     Crates crates;
     LanternRules lanterns;
+    Fireflies fireflies;
     PlayState state;
 };
 
@@ -226,6 +222,10 @@ std::uint64_t compute_hash(const PlayState& state) {
     for (const LanternState& lantern : state.lanterns) {
         hash.add(int(lantern.is_lit) + 2 * lantern.color);
         hash.add(lantern.brightness);
+    }
+    for (const FireflyState& firefly : state.fireflies) {
+        add_point(firefly.position);
+        hash.add(firefly.brightness);
     }
     for (const int value : {state.aimed_lantern, state.next_color, state.dead_count, state.relit_count})
         hash.add(value);

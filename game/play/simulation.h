@@ -1,5 +1,5 @@
-// The sandbox's world: a person who walks, glowing balls, crates, lanterns. Its state is a function of the
-// level and of the inputs so far, to the bit.
+// The sandbox's world: a person who walks, glowing balls, crates, lanterns, fireflies. Its state is a
+// function of the level and of the inputs so far, to the bit.
 #pragma once
 
 #include <cstdint>
@@ -17,6 +17,7 @@ inline constexpr int BALL_LIMIT = 50;  // a further one takes the place of the o
 inline constexpr double BALL_RADIUS_M = 0.15;
 inline constexpr double CRATE_HALF_M = 0.3;  // of their edge
 inline constexpr int PLAY_COLORS = 8;        // of balls and lanterns
+inline constexpr int FIREFLY_LIMIT = 1000;
 
 struct PlayerState {
     Vec3 feet;  // world space, metres
@@ -55,6 +56,11 @@ struct TorchState {
     double brightness = 0.0;  // relative to its mean; 0: not lit
 };
 
+struct FireflyState {
+    Vec3 position;            // world space, metres
+    double brightness = 0.0;  // relative to its brightest; above 0
+};
+
 struct PlayState {
     std::uint64_t step = 0;  // since the start, or since the last restart
     PlayerState player;
@@ -62,11 +68,12 @@ struct PlayState {
     std::vector<CrateState> crates;      // always as many
     std::vector<LanternState> lanterns;  // as in the level
     TorchState torch;
-    int aimed_lantern = -1;           // within reach, in the middle of the view; -1: none
-    int next_color = 0;               // of the next ball
-    int dead_count = 0;               // lanterns that were dead
-    int relit_count = 0;              // and are lit now
-    std::uint64_t finished_step = 0;  // when all were lit for the first time; 0: not yet
+    std::vector<FireflyState> fireflies;  // always as many
+    int aimed_lantern = -1;               // within reach, in the middle of the view; -1: none
+    int next_color = 0;                   // of the next ball
+    int dead_count = 0;                   // lanterns that were dead
+    int relit_count = 0;                  // and are lit now
+    std::uint64_t finished_step = 0;      // when all were lit for the first time; 0: not yet
 };
 
 // Of every number in it.

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <optional>
 
 #include "replay_player.h"
 #include "sandbox.h"
@@ -24,9 +25,11 @@ struct Options {
     std::uint32_t seed = 0;
     int threads = 0;
     double frame_ms = 33.0;
+    std::optional<int> fireflies;
     std::string record;
     std::string replay;
     bool headless = false;
+    bool times = false;
     std::string folder;
     int every = 1;
 };
@@ -45,6 +48,7 @@ Size parse_size(const std::string& text) {
 void play(const Options& options) {
     SandboxOptions sandbox;
     sandbox.source.scene = options.scene;
+    sandbox.source.fireflies = options.fireflies;
     sandbox.settings = Settings::preset(options.preset);
     sandbox.settings.set_number("scale", options.scale);
     sandbox.preset = options.preset;
@@ -66,9 +70,10 @@ void replay(const Options& options) {
     how.folder = options.folder;
     how.every = options.every;
     how.threads = options.threads;
+    how.prints_times = options.times;
     how.stop = [] { return is_interrupted.load(); };
     make_look(recorded, how.file);
-    const std::unique_ptr<Stage> stage = load_stage({recorded.scene, {}});
+    const std::unique_ptr<Stage> stage = load_stage({recorded.scene, {}, recorded.fireflies});
     if (options.headless) return play_replay(*stage, recorded, how, nullptr);
     Window window({"Tarn sandbox: replay", recorded.width_px, recorded.height_px, options.threads});
     play_replay(*stage, recorded, how, &window);
@@ -92,11 +97,16 @@ void add_options(CLI::App& app, Options& options) {
            "What a frame may take, ms: where it takes longer, less is rendered; 0: nothing is changed")
         ->check(CLI::Range(0.0, 1000.0))
         ->capture_default_str();
+    CLI::Option* fireflies =
+        app.add_option("--fireflies", options.fireflies,
+                       "How many there are; unless said, 60 in lantern_court and none elsewhere")
+            ->check(CLI::Range(0, FIREFLY_LIMIT));
     CLI::Option* record = app.add_option("--record", options.record, "Write what is done to this file");
     CLI::Option* replay =
-        app.add_option("--replay", options.replay, "Do what this file says")->excludes(record);
+        app.add_option("--replay", options.replay, "Do what this file says")->excludes(record, fireflies);
     CLI::Option* folder =
         app.add_option("--out", options.folder, "Write the replay's frames as PNG files to this folder");
+    app.add_flag("--times", options.times, "Print the median time of the replay's frames")->needs(replay);
     app.add_flag("--headless", options.headless, "Without a window")->needs(replay)->needs(folder);
     folder->needs(replay);
     app.add_option("--every", options.every, "Of the replay's steps, 60 a second, draw every so many")

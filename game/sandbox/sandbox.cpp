@@ -32,6 +32,7 @@ Sandbox::Sandbox(Window& window, std::unique_ptr<Stage> stage, const SandboxOpti
     look_.settings = options.settings;
     look_.preset = options.preset;
     look_.frame_ms = float(options.frame_ms);
+    look_.fireflies = int(stage_->state().fireflies.size());
     facts_.shows_help = true;
     if (!options.record.empty()) start_record();
     window_.set_vsync(true);
@@ -46,6 +47,7 @@ void Sandbox::start_record() {
     head.width_px = std::max(1, size.width_px);
     head.height_px = std::max(1, size.height_px);
     head.seed = options_.seed;
+    head.fireflies = stage_->wished_fireflies();
     for (const SettingInfo& row : Settings::list())
         head.settings.emplace_back(row.name, options_.settings.get(row.name));
     recorder_ = std::make_unique<ReplayRecorder>(options_.record, head);
@@ -87,6 +89,7 @@ void Sandbox::open(const std::string& file) {
         view_ = std::move(view);
         stage_ = std::move(stage);
         source_ = source;
+        look_.fireflies = int(stage_->state().fireflies.size());
         waiting_ = {};
         behind_s_ = 0.0;
         timings_.clear();
@@ -161,6 +164,7 @@ void Sandbox::play(const Controls& controls, double dt_s) {
     }
     for (; behind_s_ >= STEP_S; behind_s_ -= STEP_S) step(std::exchange(waiting_, without_presses(waiting_)));
     facts_.step_ms = 1e3 * seconds_since(start);
+    stage_->set_lit_fireflies(look_.fireflies);
     stage_->show();
 }
 
@@ -197,10 +201,11 @@ void Sandbox::update_title() {
     const auto balls = std::count_if(state.balls.begin(), state.balls.end(),
                                      [](const BallState& ball) { return ball.is_alive; });
     window_.set_title(
-        fmt::format("Tarn sandbox: {} {}x{} x={:.2f} y={:.2f} z={:.2f} yaw={:.2f} balls={} lit={}/{} {} "
+        fmt::format("Tarn sandbox: {} {}x{} x={:.2f} y={:.2f} z={:.2f} yaw={:.2f} balls={} lit={}/{} "
+                    "fireflies={} {} "
                     "step={} rung={} frame={}",
                     source_.scene, facts_.width_px, facts_.height_px, feet.x, feet.y, feet.z,
-                    state.player.yaw_rad, balls, state.relit_count, state.dead_count,
+                    state.player.yaw_rad, balls, state.relit_count, state.dead_count, look_.fireflies,
                     facts_.has_mouse ? "playing" : "paused", state.step, facts_.rung, frame_));
 }
 

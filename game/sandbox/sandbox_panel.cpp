@@ -105,6 +105,13 @@ void draw_governor(float& frame_ms, const SandboxFacts& facts) {
         write(fmt::format("step {} of {}: {}", facts.rung, facts.rungs - 1, facts.rung_sentence));
 }
 
+void draw_fireflies(int& lit, int count) {
+    if (count == 0) return;
+    ImGui::SliderInt("fireflies", &lit, 0, count, fmt::format("%d of {}", count).c_str(),
+                     ImGuiSliderFlags_AlwaysClamp);
+    add_tooltip("how many of them shine");
+}
+
 void draw_costs(const SandboxFacts& facts) {
     write(fmt::format("{}x{}  {:.1f} ms a frame, {:.1f} frames/s", facts.width_px, facts.height_px,
                       facts.cost.frame_ms, facts.frames_per_s));
@@ -124,7 +131,7 @@ void draw_costs(const SandboxFacts& facts) {
 }
 
 // At most half of the window's width.
-void draw_panel_window(SandboxSettings& settings, const SandboxFacts& facts) {
+void draw_panel_window(SandboxSettings& settings, const SandboxFacts& facts, const PlayState& state) {
     static const std::vector<SettingInfo> ROWS = Settings::list();
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const float width = std::min(22.0f * ImGui::GetFontSize(), 0.5f * size.x);
@@ -138,6 +145,7 @@ void draw_panel_window(SandboxSettings& settings, const SandboxFacts& facts) {
         draw_governor(settings.frame_ms, facts);
         ImGui::SliderFloat("glare", &settings.glare_strength, 0.0f, 8.0f, "%.2f x",
                            ImGuiSliderFlags_AlwaysClamp);
+        draw_fireflies(settings.fireflies, int(state.fireflies.size()));
         if (ImGui::CollapsingHeader("Cost", ImGuiTreeNodeFlags_DefaultOpen)) draw_costs(facts);
         if (ImGui::CollapsingHeader("Settings")) draw_settings(ROWS, SCALE_ROW, settings.settings);
     }
@@ -151,7 +159,7 @@ void draw_sandbox_panel(SandboxSettings& settings, const SandboxFacts& facts, co
     if (state.dead_count > 0) draw_note("task", ImVec2(0.5f, 0.0f), describe_task(state));
     if (!facts.message.empty()) draw_note("message", ImVec2(0.0f, 1.0f), facts.message);
     if (facts.shows_help) draw_note("help", ImVec2(0.5f, 0.5f), HELP);
-    if (facts.shows_panel) draw_panel_window(settings, facts);
+    if (facts.shows_panel) draw_panel_window(settings, facts, state);
     if (!facts.has_mouse) draw_note("paused", ImVec2(0.3f, 0.9f), "Click to go on. Escape quits.");
 }
 

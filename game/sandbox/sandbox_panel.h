@@ -16,6 +16,7 @@ struct SandboxSettings {
     Settings settings;
     std::string preset;  // that was last chosen
     float glare_strength = 1.0f;
+    int fireflies = 0;      // that shine
     float frame_ms = 0.0f;  // what a frame may take; 0: as long as it does
 };
 

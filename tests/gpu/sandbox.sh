@@ -15,7 +15,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/window_steps.sh"
 
 title() { xdotool getwindowname "$window"; }
 has_title() { [[ $(title) == *" $1 "* ]]; }
-# number NAME: x, y, z, yaw, balls or step, as the title has it.
+# number NAME: x, y, z, yaw, balls, fireflies or step, as the title has it.
 number() { title | sed -n "s/.* $1=\([-0-9.]*\) .*/\1/p"; }
 # In metres, along the floor, from the place at "$1 $2".
 distance() { awk -v x="$(number x)" -v z="$(number z)" -v a="$1" -v b="$2" 'BEGIN { print sqrt((x-a)^2 + (z-b)^2) }'; }
@@ -58,6 +58,7 @@ recorded_steps() { awk '$1 == "step" { n += $2 } END { print n + 0 }' "$1"; }
 has_recorded() { (($(recorded_steps "$1") > $2)); }
 
 start run.replay
+has_title "fireflies=60" || fail "there are no sixty fireflies: $(title)"
 look start
 wait_for "frames take longer than they may: less is rendered, in two steps" has_title "rung=2"
 
@@ -124,6 +125,8 @@ fails_with "cut.replay: line" "$sandbox" --replay cut.replay --headless --out cu
 fails_with "nowhere.replay: the replay cannot be read" "$sandbox" --replay nowhere.replay --headless --out cut
 fails_with "scene 'nowhere'" "$sandbox" nowhere
 fails_with "no display" env -u DISPLAY -u WAYLAND_DISPLAY "$sandbox"
+
+"$sandbox" --replay run.replay --fireflies 3 >said.txt 2>&1 && fail "a replay takes other fireflies than its own"
 
 # Killed without a warning, it leaves what was done until then.
 start killed.replay
