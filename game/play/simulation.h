@@ -18,6 +18,10 @@ inline constexpr double BALL_RADIUS_M = 0.15;
 inline constexpr double CRATE_HALF_M = 0.3;  // of their edge
 inline constexpr int PLAY_COLORS = 8;        // of balls and lanterns
 inline constexpr int FIREFLY_LIMIT = 1000;
+// Every so many steps all bodies are made anew from a snapshot, in every run, so that nothing which a
+// snapshot does not hold, such as Bullet's contacts, outlives it: a save is the last snapshot and the inputs
+// since.
+inline constexpr int SNAPSHOT_STEPS = 600;
 
 struct PlayerState {
     Vec3 feet;  // world space, metres
@@ -48,6 +52,8 @@ struct LanternState {
     bool is_lit = true;
     int color = -1;           // below PLAY_COLORS; -1: the scene's own
     double brightness = 1.0;  // relative to the scene's own
+
+    bool operator==(const LanternState&) const = default;
 };
 
 struct TorchState {
@@ -76,6 +82,8 @@ struct PlayState {
     std::uint64_t finished_step = 0;      // when all were lit for the first time; 0: not yet
 };
 
+struct SavedPlay;
+
 // Of every number in it.
 std::uint64_t compute_hash(const PlayState& state);
 
@@ -91,6 +99,11 @@ class Simulation {
     void step(const StepInput& input);
 
     const PlayState& state() const;
+
+    // What load() needs to be in this state again, and to go on from it with the same bits.
+    SavedPlay save() const;
+    // Error where it is of a level with other lanterns or crates; then all stays as it is.
+    void load(const SavedPlay& saved);
 
   private:
     struct Parts;

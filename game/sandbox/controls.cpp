@@ -64,6 +64,8 @@ Controls ControlReader::read(double dt_s) {
     controls.leave = input_.was_pressed(GLFW_KEY_ESCAPE);
     controls.help = input_.was_pressed(GLFW_KEY_F1);
     controls.panel = input_.was_pressed(GLFW_KEY_F2);
+    controls.save = input_.was_pressed(GLFW_KEY_F5);
+    controls.load = input_.was_pressed(GLFW_KEY_F9);
     controls.fullscreen = input_.was_pressed(GLFW_KEY_F11);
     controls.screenshot = input_.was_pressed(GLFW_KEY_F12);
     controls.files = input_.dropped_files();

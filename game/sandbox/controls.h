@@ -18,6 +18,8 @@ struct Controls {
     bool click = false;              // the left button, while the mouse is free
     bool help = false;               // F1
     bool panel = false;              // F2
+    bool save = false;               // F5
+    bool load = false;               // F9
     bool fullscreen = false;         // F11
     bool screenshot = false;         // F12
     std::vector<std::string> files;  // that were dropped on the window

@@ -7,6 +7,7 @@
 #include <exception>
 #include <optional>
 
+#include "../user_folders.h"
 #include "replay_player.h"
 #include "sandbox.h"
 
@@ -28,6 +29,7 @@ struct Options {
     std::optional<int> fireflies;
     std::string record;
     std::string replay;
+    bool continues = false;
     bool headless = false;
     bool times = false;
     std::string folder;
@@ -45,6 +47,15 @@ Size parse_size(const std::string& text) {
     return size;
 }
 
+// Who asks for a save must have a folder; others play without.
+std::filesystem::path find_saves(const Options& options) try {
+    return find_data_folder();
+} catch (const Error& error) {
+    if (options.continues) throw;
+    std::fprintf(stderr, "tarn-sandbox: nothing is saved: %s\n", error.what());
+    return {};
+}
+
 void play(const Options& options) {
     SandboxOptions sandbox;
     sandbox.source.scene = options.scene;
@@ -56,6 +67,8 @@ void play(const Options& options) {
     sandbox.threads = options.threads;
     sandbox.frame_ms = options.frame_ms;
     sandbox.record = options.record;
+    sandbox.saves = find_saves(options);
+    sandbox.continues = options.continues;
     sandbox.stop = [] { return is_interrupted.load(); };
     std::unique_ptr<Stage> stage = load_stage(sandbox.source);
     const Size size = parse_size(options.size);
@@ -104,6 +117,10 @@ void add_options(CLI::App& app, Options& options) {
     CLI::Option* record = app.add_option("--record", options.record, "Write what is done to this file");
     CLI::Option* replay =
         app.add_option("--replay", options.replay, "Do what this file says")->excludes(record, fireflies);
+    app.add_flag("--continue", options.continues,
+                 "Go on from the automatic save of this scene, under $XDG_DATA_HOME/tarn or "
+                 "~/.local/share/tarn")
+        ->excludes(record, replay);
     CLI::Option* folder =
         app.add_option("--out", options.folder, "Write the replay's frames as PNG files to this folder");
     app.add_flag("--times", options.times, "Print the median time of the replay's frames")->needs(replay);
@@ -119,7 +136,8 @@ int run(int argc, char** argv) {
     CLI::App app{"Walk through a scene at night, throw glowing balls, relight dead lanterns."};
     app.footer(
         "W A S D walk, Shift runs, Space jumps, C crouches; the mouse looks, its left button throws a ball.\n"
-        "E: light a lantern. F: a torch. F1: all keys. F2: panel. F12: screenshot. Escape: free the mouse, "
+        "E: light a lantern. F: a torch. F1: all keys. F2: panel. F5, F9: save, load. F12: screenshot. "
+        "Escape: free the mouse, "
         "then quit.");
     Options options;
     add_options(app, options);

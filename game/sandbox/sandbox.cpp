@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <thread>
 #include <utility>
 
@@ -14,6 +15,7 @@ namespace {
 constexpr double LONGEST_FRAME_S = 0.25;  // on a slower machine time goes slower, not farther a frame
 constexpr auto RESIZE_DELAY = std::chrono::milliseconds(250);
 constexpr auto MESSAGE_TIME = std::chrono::seconds(5);
+constexpr auto AUTOSAVE_TIME = std::chrono::seconds(30);
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -35,6 +37,8 @@ Sandbox::Sandbox(Window& window, std::unique_ptr<Stage> stage, const SandboxOpti
     look_.fireflies = int(stage_->state().fireflies.size());
     facts_.shows_help = true;
     if (!options.record.empty()) start_record();
+    find_saves();
+    if (options.continues) load(SaveKind::AUTOMATIC);
     window_.set_vsync(true);
     controls_.capture_mouse(true);
 }
@@ -60,6 +64,7 @@ void Sandbox::run() {
         const double dt_s = seconds_since(last);
         last = Clock::now();
         if (recorder_) recorder_->flush_when_due();
+        save_when_due();
         if (window_.is_minimized()) {
             std::this_thread::sleep_for(std::chrono::milliseconds(50));
             continue;
@@ -67,11 +72,53 @@ void Sandbox::run() {
         follow_window_size();
         show_frame(dt_s);
     }
-    end_record();
+    end_record(compute_hash(stage_->state()));
+    if (saves_ && stage_->state().step != saved_step_) saves_->write(SaveKind::AUTOMATIC, *stage_);
 }
 
-void Sandbox::end_record() {
-    if (recorder_) recorder_->end(compute_hash(stage_->state()));
+void Sandbox::find_saves() {
+    if (!options_.saves.empty())
+        saves_ = std::make_unique<Saves>(options_.saves, source_.scene, stage_->level_hash());
+    saved_at_ = Clock::now();
+}
+
+void Sandbox::save() try {
+    if (!saves_) return report("nothing can be saved: there is no folder for it");
+    saves_->write(SaveKind::ASKED_FOR, *stage_);
+    report("saved " + saves_->file(SaveKind::ASKED_FOR).string());
+} catch (const Error& error) {
+    report(error.what());
+}
+
+void Sandbox::load(SaveKind kind) try {
+    const std::uint64_t before = compute_hash(stage_->state());
+    if (!saves_ || !saves_->load(kind, *stage_))
+        return report(kind == SaveKind::ASKED_FOR ? "nothing is saved in this level yet"
+                                                  : "nothing to go on from in this level yet");
+    // A record knows inputs alone.
+    const std::string also = recorder_ ? "; the record has ended" : "";
+    end_record(before);
+    waiting_ = {};
+    behind_s_ = 0.0;
+    if (view_) view_->reset_history();
+    report("loaded " + saves_->file(kind).string() + also);
+} catch (const Error& error) {
+    fmt::print(stderr, "tarn-sandbox: {}\n", error.what());
+    report(error.what());
+}
+
+// What cannot be written now is said, and tried again later.
+void Sandbox::save_when_due() try {
+    if (!saves_ || Clock::now() - saved_at_ < AUTOSAVE_TIME) return;
+    saved_at_ = Clock::now();
+    if (std::exchange(saved_step_, stage_->state().step) == stage_->state().step) return;
+    saves_->write(SaveKind::AUTOMATIC, *stage_);
+} catch (const Error& error) {
+    report(error.what());
+}
+
+void Sandbox::end_record(std::uint64_t state_hash) {
+    if (recorder_) recorder_->end(state_hash);
     recorder_.reset();
 }
 
@@ -85,10 +132,12 @@ void Sandbox::open(const std::string& file) {
                                            std::max(1, size.height_px));
         // A record is of one level under one sky.
         const std::string also = recorder_ ? "; the record has ended" : "";
-        end_record();
+        end_record(compute_hash(stage_->state()));
+        if (saves_) saves_->write(SaveKind::AUTOMATIC, *stage_);
         view_ = std::move(view);
         stage_ = std::move(stage);
         source_ = source;
+        find_saves();
         look_.fireflies = int(stage_->state().fireflies.size());
         waiting_ = {};
         behind_s_ = 0.0;
@@ -144,6 +193,8 @@ void Sandbox::handle_controls(const Controls& controls) {
     if (begins && stage_->state().step < 2 * STEPS_PER_S) facts_.shows_help = false;
     if (controls.fullscreen) window_.set_fullscreen(!window_.is_fullscreen());
     if (controls.screenshot) save_screenshot();
+    if (controls.save) save();
+    if (controls.load) load(SaveKind::ASKED_FOR);
     for (const std::string& file : controls.files) open(file);
     facts_.has_mouse = controls_.has_mouse();
 }

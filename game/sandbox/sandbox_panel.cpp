@@ -24,7 +24,7 @@ constexpr const char* HELP =
     "E          light the lantern you look at, or put it out\n"
     "F          take out a torch, or put it away\n"
     "Wheel      recolour that lantern; with Shift: dim it\n"
-    "F1 help   F2 panel   F11 fullscreen   F12 screenshot\n"
+    "F1 help   F2 panel   F5 save   F9 load   F11 fullscreen   F12 screenshot\n"
     "Gamepad: sticks walk and look, A jumps, B crouches, X acts as E,\n"
     "         right trigger throws, left trigger runs, start pauses\n"
     "Drop a .gltf or .glb file here to play in it, an .hdr or .exr file as its sky\n"

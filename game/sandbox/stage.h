@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "../play/simulation.h"
+#include "../play/snapshot.h"
 #include "actors.h"
 
 namespace game {
@@ -27,6 +28,9 @@ class Stage {
 
     // Goes on by one step.
     void step(const StepInput& input) { simulation_.step(input); }
+    SavedPlay save() const { return simulation_.save(); }
+    // As for Simulation.
+    void load(const SavedPlay& saved) { simulation_.load(saved); }
     // Brings the scene to where the simulation is.
     void show();
     // How many of the fireflies shine, from the next show() on; all of them unless said.

@@ -34,6 +34,7 @@ is_in_court() {
 }
 has_turned() { awk -v yaw="$(number yaw)" -v before="$1" 'BEGIN { exit !(yaw > before + 0.05 || yaw < before - 0.05) }'; }
 exists() { window=$(xdotool search --name '^Tarn sandbox: .* playing ' 2>/dev/null | head -n 1) && [[ -n $window ]]; }
+is_saved() { compgen -G "data/tarn/lantern_court-*.$1" >/dev/null; }
 fails_with() {
     local text=$1 status=0
     shift
@@ -46,6 +47,7 @@ fails_with() {
 rm -rf "$folder"
 mkdir -p "$folder"
 cd "$folder"
+export XDG_DATA_HOME=$PWD/data
 
 # start FILE: a session that is recorded there.
 start() {
@@ -77,6 +79,8 @@ xdotool click 1
 wait_for "a ball flies" has_title "balls=1"
 xdotool click 1
 wait_for "and another" has_title "balls=2"
+xdotool key F5
+wait_for "F5 saves" is_saved save
 xdotool key F12
 wait_for "F12 writes a picture" is_file out/sandbox_0001.png
 [[ $(identify -format '%wx%h' out/sandbox_0001.png) == 320x180 ]] || fail "the screenshot has another size"
@@ -104,6 +108,8 @@ xdotool key Escape
 wait_for "Escape frees the mouse" has_title paused
 xdotool mousemove 100 100 click 1
 wait_for "a click goes on" has_title playing
+xdotool key F9
+wait_for "F9 loads what was saved" has_title "balls=2"
 xdotool key Escape
 wait_for "Escape frees it again" has_title paused
 steps=$(number step)
@@ -111,6 +117,7 @@ steps=$(number step)
 xdotool key Escape
 expect_end "the second Escape"
 echo "ok: the second Escape ends it with 0"
+is_saved autosave || fail "there is no automatic save"
 
 is_file run.replay || fail "there is no record"
 [[ $(grep -m 1 '^step' run.replay) == *' - 0 0 0' ]] || fail "the head turns by itself: $(grep -m 1 '^step' run.replay)"
@@ -119,6 +126,24 @@ is_file run.replay || fail "there is no record"
 (($(ls headless | wc -l) > 3)) || fail "there are $(ls headless | wc -l) pictures"
 diff -r headless windowed || fail "a window and none show different pictures"
 echo "ok: the replay has the same pictures in a window and without one"
+
+# again FLAG...: a session like the last one, without a record.
+again() {
+    "$sandbox" --size 320x180 --scale 0.25 --frame-ms 1 "$@" >log.txt 2>&1 &
+    viewer=$!
+    wait_for "a window, playing" exists
+}
+again --continue
+wait_for "play goes on where it was left" has_title "balls=2"
+kill -TERM "$viewer"
+expect_end "SIGTERM"
+for file in data/tarn/*.autosave; do printf x >>"$file"; done
+again --continue
+wait_for "a damaged save is kept aside" is_saved autosave.damaged
+wait_for "and play begins anew" has_title "balls=0"
+[[ $(wc -l <log.txt) == 1 ]] && grep -q 'it is damaged.*; kept as' log.txt || fail "it says: $(cat log.txt)"
+kill -TERM "$viewer"
+expect_end "SIGTERM"
 
 head -c 300 run.replay >cut.replay
 fails_with "cut.replay: line" "$sandbox" --replay cut.replay --headless --out cut

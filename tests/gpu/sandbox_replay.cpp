@@ -207,7 +207,7 @@ TEST_F(SandboxReplay, WhatIsBrokenIsNamedInOneLine) {
     replay.settings.emplace_back("colour", "red");
     game::save_replay(folder_.file("a.replay"), replay);
     expect_error("no setting 'colour'");
-    std::ofstream(folder_.file("a.replay")) << "tarn-sandbox-replay 3\nscene x\n";
+    std::ofstream(folder_.file("a.replay")) << "tarn-sandbox-replay 4\nscene x\n";
     expect_error("line 3: the file is cut off before its first step");
 }
 

@@ -71,7 +71,7 @@ TEST_F(ReplayFile, WhatIsBrokenIsNamed) {
     };
     expect_error("", "line 1: the file is cut off before its first step");
     expect_error("hello\n", "line 1: this is no replay");
-    expect_error(with("replay 3", "replay 2"), "line 1: its version is 2, this program reads 3");
+    expect_error(with("replay 4", "replay 3"), "line 1: its version is 3, this program reads 4");
     expect_error(with("size 96", "size 0"), "line 4: the width is '0'");
     expect_error(with("seed 4", "seed x4"), "line 5: the seed is 'x4");
     expect_error(with("level fedc", "level FEDC"), "line 3: the level's hash is 'FEDC");
