@@ -67,7 +67,9 @@ Controls ControlReader::read(double dt_s) {
     controls.save = input_.was_pressed(GLFW_KEY_F5);
     controls.load = input_.was_pressed(GLFW_KEY_F9);
     controls.fullscreen = input_.was_pressed(GLFW_KEY_F11);
-    controls.screenshot = input_.was_pressed(GLFW_KEY_F12);
+    const bool shift = input_.is_held(GLFW_KEY_LEFT_SHIFT) || input_.is_held(GLFW_KEY_RIGHT_SHIFT);
+    controls.radiance = shift && input_.was_pressed(GLFW_KEY_F12);
+    controls.screenshot = !shift && input_.was_pressed(GLFW_KEY_F12);
     controls.files = input_.dropped_files();
     if (has_mouse_) {
         read_play(controls.play, pad, dt_s);

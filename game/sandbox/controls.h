@@ -21,7 +21,8 @@ struct Controls {
     bool save = false;               // F5
     bool load = false;               // F9
     bool fullscreen = false;         // F11
-    bool screenshot = false;         // F12
+    bool screenshot = false;         // F12, as the eye sees it
+    bool radiance = false;           // F12 with Shift: a screenshot of linear radiance
     std::vector<std::string> files;  // that were dropped on the window
 };
 

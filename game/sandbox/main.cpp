@@ -136,7 +136,8 @@ int run(int argc, char** argv) {
     CLI::App app{"Walk through a scene at night, throw glowing balls, relight dead lanterns."};
     app.footer(
         "W A S D walk, Shift runs, Space jumps, C crouches; the mouse looks, its left button throws a ball.\n"
-        "E: light a lantern. F: a torch. F1: all keys. F2: panel. F5, F9: save, load. F12: screenshot. "
+        "E: light a lantern. F: a torch. F1: all keys. F2: panel. F5, F9: save, load. F12: screenshot, with "
+        "Shift as EXR. "
         "Escape: free the mouse, "
         "then quit.");
     Options options;

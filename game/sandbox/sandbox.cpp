@@ -192,7 +192,7 @@ void Sandbox::handle_controls(const Controls& controls) {
     const bool begins = controls.play.forward != 0 || controls.play.right != 0;
     if (begins && stage_->state().step < 2 * STEPS_PER_S) facts_.shows_help = false;
     if (controls.fullscreen) window_.set_fullscreen(!window_.is_fullscreen());
-    if (controls.screenshot) save_screenshot();
+    if (controls.screenshot || controls.radiance) save_screenshot(controls.radiance);
     if (controls.save) save();
     if (controls.load) load(SaveKind::ASKED_FOR);
     for (const std::string& file : controls.files) open(file);
@@ -260,11 +260,15 @@ void Sandbox::update_title() {
                     facts_.has_mouse ? "playing" : "paused", state.step, facts_.rung, frame_));
 }
 
-void Sandbox::save_screenshot() {
+void Sandbox::save_screenshot(bool as_radiance) {
     if (frame_ == 0) return;
     try {
-        const std::filesystem::path file = find_new_picture("sandbox");
-        view_->write_png(file);
+        const std::filesystem::path file = find_new_picture("sandbox", as_radiance ? "exr" : "png");
+        if (as_radiance) {
+            view_->read().write_exr(file);
+        } else {
+            view_->write_png(file);
+        }
         report("wrote " + file.string());
     } catch (const Error& error) {
         report(error.what());

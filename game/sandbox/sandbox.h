@@ -57,7 +57,7 @@ class Sandbox {
     void draw(double dt_s);
     Settings govern(double dt_s);
     void update_title();
-    void save_screenshot();
+    void save_screenshot(bool as_radiance);
     void report(const std::string& message);
     void open(const std::string& file);
     void start_record();

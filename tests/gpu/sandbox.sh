@@ -85,6 +85,11 @@ xdotool key F12
 wait_for "F12 writes a picture" is_file out/sandbox_0001.png
 [[ $(identify -format '%wx%h' out/sandbox_0001.png) == 320x180 ]] || fail "the screenshot has another size"
 
+xdotool key shift+F12
+wait_for "Shift+F12 writes radiance" is_file out/sandbox_0001.exr
+[[ $(od -An -tx1 -N4 out/sandbox_0001.exr) == " 76 2f 31 01" ]] || fail "that is no EXR file"
+[[ ! -e out/sandbox_0002.png ]] || fail "Shift+F12 writes a PNG too"
+
 look before
 xdotool key F2
 wait_for "F2 shows the panel and frees the mouse" has_title paused
