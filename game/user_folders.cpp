@@ -28,6 +28,10 @@ std::filesystem::path find_data_folder() {
     return find_user_folder("XDG_DATA_HOME", ".local/share");
 }
 
+std::filesystem::path find_settings_folder() {
+    return find_user_folder("XDG_CONFIG_HOME", ".config");
+}
+
 void write_whole(const std::filesystem::path& file, const std::string& text) {
     std::error_code failure;
     std::filesystem::create_directories(file.parent_path(), failure);

@@ -9,6 +9,9 @@ namespace game {
 // $XDG_DATA_HOME/tarn, or ~/.local/share/tarn. Error where neither is set. The folder may not be there yet.
 std::filesystem::path find_data_folder();
 
+// $XDG_CONFIG_HOME/tarn, or ~/.config/tarn; as above.
+std::filesystem::path find_settings_folder();
+
 // Makes the folder where it is missing, writes a file beside the old one and then takes its place. Error that
 // names the file.
 void write_whole(const std::filesystem::path& file, const std::string& text);

@@ -56,6 +56,19 @@ std::filesystem::path find_saves(const Options& options) try {
     return {};
 }
 
+// As the user's file says. Where there is none and none can be written, the keys are as usual.
+KeyMap find_keys() {
+    std::filesystem::path file;
+    try {
+        file = find_settings_folder() / "keys.ini";
+        if (!std::filesystem::exists(file)) write_whole(file, describe_keys(KeyMap()));
+    } catch (const Error& error) {
+        std::fprintf(stderr, "tarn-sandbox: the keys are as usual: %s\n", error.what());
+        return {};
+    }
+    return load_keys(file);
+}
+
 void play(const Options& options) {
     SandboxOptions sandbox;
     sandbox.source.scene = options.scene;
@@ -68,6 +81,7 @@ void play(const Options& options) {
     sandbox.frame_ms = options.frame_ms;
     sandbox.record = options.record;
     sandbox.saves = find_saves(options);
+    sandbox.keys = find_keys();
     sandbox.continues = options.continues;
     sandbox.stop = [] { return is_interrupted.load(); };
     std::unique_ptr<Stage> stage = load_stage(sandbox.source);
@@ -139,7 +153,9 @@ int run(int argc, char** argv) {
         "E: light a lantern. F: a torch. F1: all keys. F2: panel. F5, F9: save, load. F12: screenshot, with "
         "Shift as EXR. "
         "Escape: free the mouse, "
-        "then quit.");
+        "then quit.\n"
+        "Keys are read from $XDG_CONFIG_HOME/tarn/keys.ini or ~/.config/tarn/keys.ini, which is written "
+        "when it is missing.");
     Options options;
     add_options(app, options);
     try {

@@ -29,13 +29,14 @@ Sandbox::Sandbox(Window& window, std::unique_ptr<Stage> stage, const SandboxOpti
       engine_(open_engine(&window, options.threads)),
       source_(options.source),
       stage_(std::move(stage)),
-      controls_(window),
+      controls_(window, options.keys),
       widgets_(window) {
     look_.settings = options.settings;
     look_.preset = options.preset;
     look_.frame_ms = float(options.frame_ms);
     look_.fireflies = int(stage_->state().fireflies.size());
     facts_.shows_help = true;
+    facts_.help = list_help(options.keys);
     if (!options.record.empty()) start_record();
     find_saves();
     if (options.continues) load(SaveKind::AUTOMATIC);

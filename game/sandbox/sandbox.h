@@ -28,8 +28,9 @@ struct SandboxOptions {
     double frame_ms = 0.0;         // what a frame may take (Governor); 0: as long as it does
     std::filesystem::path record;  // written while it is played; empty: nothing
     std::filesystem::path saves;   // the folder of saves; empty: nothing is saved
-    bool continues = false;        // begins where the automatic save is, if there is one
-    std::function<bool()> stop;    // asked before each frame; true: quit. Empty: never
+    KeyMap keys;
+    bool continues = false;      // begins where the automatic save is, if there is one
+    std::function<bool()> stop;  // asked before each frame; true: quit. Empty: never
 };
 
 class Sandbox {

@@ -16,23 +16,6 @@ constexpr ImGuiWindowFlags PLAIN = ImGuiWindowFlags_NoDecoration | ImGuiWindowFl
                                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
 constexpr const char* SCALE_ROW = "scale";
 
-constexpr const char* HELP =
-    "W A S D    walk            Mouse      look around\n"
-    "Shift      run             Space      jump\n"
-    "C, Ctrl    crouch          R          start again\n"
-    "Left button  throw a glowing ball; the wheel chooses its colour\n"
-    "E          light the lantern you look at, or put it out\n"
-    "F          take out a torch, or put it away\n"
-    "Wheel      recolour that lantern; with Shift: dim it\n"
-    "F1 help   F2 panel   F5 save   F9 load   F11 fullscreen\n"
-    "F12 screenshot, with Shift one of linear radiance (EXR)\n"
-    "Gamepad: sticks walk and look, A jumps, B crouches, X acts as E,\n"
-    "         right trigger throws, left trigger runs, start pauses\n"
-    "Drop a .gltf or .glb file here to play in it, an .hdr or .exr file as its sky\n"
-    "Escape     free the mouse, then quit\n"
-    "\n"
-    "Some lanterns of the court are dead: find and light them all.";
-
 void write(const std::string& text) {
     ImGui::TextUnformatted(text.c_str());
 }
@@ -159,7 +142,7 @@ void draw_sandbox_panel(SandboxSettings& settings, const SandboxFacts& facts, co
     draw_cross(state);
     if (state.dead_count > 0) draw_note("task", ImVec2(0.5f, 0.0f), describe_task(state));
     if (!facts.message.empty()) draw_note("message", ImVec2(0.0f, 1.0f), facts.message);
-    if (facts.shows_help) draw_note("help", ImVec2(0.5f, 0.5f), HELP);
+    if (facts.shows_help) draw_help(facts.help);
     if (facts.shows_panel) draw_panel_window(settings, facts, state);
     if (!facts.has_mouse) draw_note("paused", ImVec2(0.3f, 0.9f), "Click to go on. Escape quits.");
 }

@@ -8,6 +8,7 @@
 #include "../play/simulation.h"
 #include "../recent_timings.h"
 #include "../tarn_names.h"
+#include "help.h"
 
 namespace game {
 
@@ -22,6 +23,7 @@ struct SandboxSettings {
 
 struct SandboxFacts {
     bool shows_help = false;
+    std::vector<HelpLine> help;
     bool shows_panel = false;
     bool has_mouse = false;  // else play waits
     std::string message;     // the last screenshot or error

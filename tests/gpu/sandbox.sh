@@ -47,7 +47,7 @@ fails_with() {
 rm -rf "$folder"
 mkdir -p "$folder"
 cd "$folder"
-export XDG_DATA_HOME=$PWD/data
+export XDG_DATA_HOME=$PWD/data XDG_CONFIG_HOME=$PWD/config
 
 # start FILE: a session that is recorded there.
 start() {
@@ -138,8 +138,18 @@ again() {
     viewer=$!
     wait_for "a window, playing" exists
 }
+[[ $(grep '^restart' config/tarn/keys.ini) == "restart = R" ]] || fail "the keys are not written"
+sed -i 's/^restart = R/restart = F7/' config/tarn/keys.ini
 again --continue
 wait_for "play goes on where it was left" has_title "balls=2"
+step=$(number step)
+xdotool key r
+wait_for "R is bound to nothing" has_stepped "$((step + 10))"
+has_title "balls=2" || fail "R starts again, though the keys say F7"
+xdotool key F7
+wait_for "F7 starts again, as the keys say" has_title "balls=0"
+xdotool click 1
+wait_for "a ball flies" has_title "balls=1"
 kill -TERM "$viewer"
 expect_end "SIGTERM"
 for file in data/tarn/*.autosave; do printf x >>"$file"; done
@@ -154,6 +164,9 @@ head -c 300 run.replay >cut.replay
 fails_with "cut.replay: line" "$sandbox" --replay cut.replay --headless --out cut
 fails_with "nowhere.replay: the replay cannot be read" "$sandbox" --replay nowhere.replay --headless --out cut
 fails_with "scene 'nowhere'" "$sandbox" nowhere
+sed 's/^use = E/use = F7/' -i config/tarn/keys.ini
+fails_with "keys.ini: line" "$sandbox"
+rm config/tarn/keys.ini
 fails_with "no display" env -u DISPLAY -u WAYLAND_DISPLAY "$sandbox"
 
 "$sandbox" --replay run.replay --fireflies 3 >said.txt 2>&1 && fail "a replay takes other fireflies than its own"
