@@ -77,9 +77,10 @@ Controls ControlReader::read(double dt_s) {
     controls.save = was_pressed(Action::SAVE);
     controls.load = was_pressed(Action::LOAD);
     controls.fullscreen = was_pressed(Action::FULLSCREEN);
-    const bool shift = input_.is_held(GLFW_KEY_LEFT_SHIFT) || input_.is_held(GLFW_KEY_RIGHT_SHIFT);
-    controls.radiance = shift && was_pressed(Action::SCREENSHOT);
-    controls.screenshot = !shift && was_pressed(Action::SCREENSHOT);
+    const std::vector<int>& keys = keys_.keys(Action::SCREENSHOT);
+    controls.radiance =
+        std::any_of(keys.begin(), keys.end(), [&](int key) { return input_.was_pressed_with_shift(key); });
+    controls.screenshot = !controls.radiance && was_pressed(Action::SCREENSHOT);
     controls.files = input_.dropped_files();
     if (has_mouse_) {
         read_play(controls.play, pad, dt_s);
