@@ -13,8 +13,8 @@ namespace game {
 // its OpenGL does not do. `threads` as for EngineOptions.
 Engine open_engine(const Window* window, int threads);
 
-// A picture that is not there yet, out/STEM_0001.png and so on; makes the folder. Error that names it where
-// that fails.
-std::filesystem::path find_new_picture(const std::string& stem);
+// A picture that is not there yet, out/STEM_0001.ENDING and so on; makes the folder. Error that names it
+// where that fails.
+std::filesystem::path find_new_picture(const std::string& stem, const std::string& ending = "png");
 
 }  // namespace game

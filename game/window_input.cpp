@@ -16,8 +16,10 @@ WindowInput& input_of(GLFWwindow* handle) {
 WindowInput::WindowInput(Window& window) : window_(window) {
     GLFWwindow* handle = window_.native_handle();
     glfwSetWindowUserPointer(handle, this);
-    glfwSetKeyCallback(handle, [](GLFWwindow* sender, int key, int, int action, int) {
-        if (action == GLFW_PRESS) input_of(sender).pressed_.insert(key);
+    glfwSetKeyCallback(handle, [](GLFWwindow* sender, int key, int, int action, int modifiers) {
+        if (action != GLFW_PRESS) return;
+        input_of(sender).pressed_.insert(key);
+        if ((modifiers & GLFW_MOD_SHIFT) != 0) input_of(sender).shifted_.insert(key);
     });
     glfwSetMouseButtonCallback(handle, [](GLFWwindow* sender, int button, int action, int) {
         if (action == GLFW_PRESS) input_of(sender).clicked_.insert(button);
@@ -40,6 +42,7 @@ WindowInput::~WindowInput() {
 
 void WindowInput::forget() {
     pressed_.clear();
+    shifted_.clear();
     clicked_.clear();
     dropped_files_.clear();
     wheel_steps_ = 0.0;

@@ -24,6 +24,8 @@ class WindowInput {
     bool is_held(int key) const;
     // Whether `key` went down since the last forget().
     bool was_pressed(int key) const { return pressed_.contains(key); }
+    // The same, with Shift held at that moment.
+    bool was_pressed_with_shift(int key) const { return shifted_.contains(key); }
     // Whether mouse button `button` (GLFW_MOUSE_BUTTON_*) went down since the last forget().
     bool was_clicked(int button) const { return clicked_.contains(button); }
     // Of the wheel since the last forget(); positive: away from the hand.
@@ -40,6 +42,7 @@ class WindowInput {
   private:
     Window& window_;
     std::set<int> pressed_;
+    std::set<int> shifted_;
     std::set<int> clicked_;
     std::vector<std::string> dropped_files_;
     double wheel_steps_ = 0.0;

@@ -14,7 +14,7 @@ Balls::Balls(Physics& physics, btScalar lowest_m)
       balls_(std::size_t(BALL_LIMIT)) {}
 
 Balls::~Balls() {
-    clear();
+    for (Ball& ball : balls_) remove(ball);
 }
 
 void Balls::remove(Ball& ball) {
@@ -23,23 +23,19 @@ void Balls::remove(Ball& ball) {
     ball.body.reset();
 }
 
-void Balls::clear() {
-    for (Ball& ball : balls_) {
-        remove(ball);
-        ball.color = 0;
-    }
-    next_ = 0;
-}
-
 void Balls::add(const btVector3& position, const btVector3& velocity_m_s, int color) {
     Ball& ball = balls_[next_];
     next_ = (next_ + 1) % balls_.size();
     remove(ball);
+    make(ball, btTransform(btMatrix3x3::getIdentity(), position), color);
+    ball.body->setLinearVelocity(velocity_m_s);
+}
+
+void Balls::make(Ball& ball, const btTransform& place, int color) {
     btVector3 inertia;
     shape_.calculateLocalInertia(BALL_KG, inertia);
     btRigidBody::btRigidBodyConstructionInfo info(BALL_KG, nullptr, &shape_, inertia);
-    info.m_startWorldTransform.setIdentity();
-    info.m_startWorldTransform.setOrigin(position);
+    info.m_startWorldTransform = place;
     info.m_friction = 0.7f;
     info.m_restitution = 0.62f;
     info.m_rollingFriction = 0.012f;
@@ -47,9 +43,8 @@ void Balls::add(const btVector3& position, const btVector3& velocity_m_s, int co
     info.m_linearDamping = 0.03f;
     info.m_angularDamping = 0.25f;
     ball.body = std::make_unique<btRigidBody>(info);
-    ball.last = position;
+    ball.last = place.getOrigin();
     ball.color = color;
-    ball.body->setLinearVelocity(velocity_m_s);
     // A fast ball moves by more than its radius in a step.
     ball.body->setCcdMotionThreshold(btScalar(0.5 * BALL_RADIUS_M));
     ball.body->setCcdSweptSphereRadius(btScalar(0.5 * BALL_RADIUS_M));
@@ -68,6 +63,28 @@ void Balls::hold() {
         ball.last = ball.body->getWorldTransform().getOrigin();
         if (!(ball.last.y() >= lowest_m_)) remove(ball);
     }
+}
+
+void Balls::take(Snapshot& snapshot) const {
+    snapshot.balls.assign(balls_.size(), {});
+    for (std::size_t i = 0; i < balls_.size(); ++i) {
+        BallSnapshot& ball = snapshot.balls[i];
+        ball.is_alive = balls_[i].body != nullptr;
+        ball.color = balls_[i].color;
+        if (ball.is_alive) ball.body = take_snapshot(*balls_[i].body);
+    }
+    snapshot.next_ball = int(next_);
+}
+
+void Balls::restore(const Snapshot& snapshot) {
+    for (std::size_t i = 0; i < balls_.size(); ++i) {
+        const BallSnapshot& ball = snapshot.balls[i];
+        balls_[i].color = ball.color;
+        if (!ball.is_alive) continue;
+        make(balls_[i], place_of(ball.body), ball.color);
+        restore_motion(*balls_[i].body, ball.body);
+    }
+    next_ = std::size_t(snapshot.next_ball);
 }
 
 void Balls::describe(std::vector<BallState>& balls) const {

@@ -19,12 +19,14 @@ class Balls {
 
     // A new one; the oldest makes room where there are BALL_LIMIT.
     void add(const btVector3& position, const btVector3& velocity_m_s, int color);
-    void clear();
     // Call after the world's step. A ball whose middle has passed a surface of the level, as when somebody
     // squeezes it against a wall, is put back; those that have fallen out of the level are gone.
     void hold();
     // Writes into as many entries as BALL_LIMIT; a ball keeps its entry.
     void describe(std::vector<BallState>& balls) const;
+    void take(Snapshot& snapshot) const;
+    // Into a world without balls.
+    void restore(const Snapshot& snapshot);
 
   private:
     struct Ball {
@@ -33,6 +35,7 @@ class Balls {
         int color = 0;
     };
     void remove(Ball& ball);
+    void make(Ball& ball, const btTransform& place, int color);
 
     Physics& physics_;
     btScalar lowest_m_;

@@ -58,10 +58,34 @@ void Character::teleport(const btVector3& feet) {
     eye_height_m_ = HEIGHT_M - EYE_BELOW_TOP_M;
     velocity_.setZero();
     wish_m_s_.setZero();
+    warp(feet + btVector3(0.0f, half_height_m(shape()), 0.0f));
+}
+
+void Character::warp(const btVector3& middle) {
     controller_.reset(&physics_.world());
-    controller_.warp(feet + btVector3(0.0f, half_height_m(shape()), 0.0f));
+    controller_.warp(middle);
     body_.setWorldTransform(ghost_.getWorldTransform());
     body_.setInterpolationWorldTransform(ghost_.getWorldTransform());
+}
+
+CharacterSnapshot Character::take() const {
+    CharacterSnapshot snapshot;
+    snapshot.middle = to_array(ghost_.getWorldTransform().getOrigin());
+    snapshot.velocity = to_array(velocity_);
+    snapshot.wish = to_array(wish_m_s_);
+    snapshot.eye_height_m = eye_height_m_;
+    snapshot.is_crouching = is_crouching_;
+    controller_.take(snapshot);
+    return snapshot;
+}
+
+void Character::restore(const CharacterSnapshot& snapshot) {
+    set_height(snapshot.is_crouching);
+    eye_height_m_ = snapshot.eye_height_m;
+    velocity_ = to_vector(snapshot.velocity);
+    wish_m_s_ = to_vector(snapshot.wish);
+    warp(to_vector(snapshot.middle));
+    controller_.restore(snapshot);
 }
 
 btVector3 Character::feet() const {

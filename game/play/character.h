@@ -25,6 +25,8 @@ class Character {
     // Goes on by `dt_s` seconds; call before the world's own step.
     void step(const WalkInput& input, btScalar dt_s);
     void teleport(const btVector3& feet);
+    CharacterSnapshot take() const;
+    void restore(const CharacterSnapshot& snapshot);
 
     btVector3 feet() const;
     btScalar eye_height_m() const { return eye_height_m_; }
@@ -49,12 +51,26 @@ class Character {
             m_convexShape = shape;
             m_ghostObject->setCollisionShape(shape);
         }
+        void take(CharacterSnapshot& snapshot) const {
+            snapshot.rise_m_s = m_verticalVelocity;
+            snapshot.rise_m = m_verticalOffset;
+            snapshot.was_on_ground = m_wasOnGround;
+            snapshot.was_jumping = m_wasJumping;
+        }
+        void restore(const CharacterSnapshot& snapshot) {
+            m_verticalVelocity = snapshot.rise_m_s;
+            m_verticalOffset = snapshot.rise_m;
+            m_wasOnGround = snapshot.was_on_ground;
+            m_wasJumping = snapshot.was_jumping;
+            m_jumpAxis = m_up;  // else only jump() sets it, and who is in the air would be led aside
+        }
     };
 
     static btScalar half_height_m(const btCapsuleShape& shape) {
         return shape.getHalfHeight() + shape.getRadius();
     }
     void set_height(bool crouch);
+    void warp(const btVector3& middle);
     void change_height(bool crouch);
     bool has_room_to_stand() const;
     bool is_pierced(btScalar height_m) const;

@@ -31,14 +31,16 @@ class BesideBody final : public btCollisionWorld::ClosestConvexResultCallback {
 
 }  // namespace
 
-Crates::Crates(Physics& physics, const Level& level, btScalar lowest_m)
-    : physics_(physics), lowest_m_(lowest_m), shape_(btVector3(1.0f, 1.0f, 1.0f) * btScalar(CRATE_HALF_M)) {
+Crates::Crates(Physics& physics, btScalar lowest_m)
+    : physics_(physics), lowest_m_(lowest_m), shape_(btVector3(1.0f, 1.0f, 1.0f) * btScalar(CRATE_HALF_M)) {}
+
+void Crates::place(const Level& level) {
     for (const CratePlace& place : level.crates) {
         const double height_m = level.triangles.empty() ? 0.0 : place.above.y - level.bounds.lower.y;
         const auto start = find_place(place, btScalar(std::max(height_m, double(Character::HEIGHT_M)) + 1.0));
         if (!start) continue;
         crates_.push_back({*start, nullptr, start->getOrigin()});
-        add(crates_.back());  // the next one may come to stand on it
+        add(crates_.back(), *start);  // the next one may come to stand on it
     }
 }
 
@@ -61,17 +63,17 @@ std::optional<btTransform> Crates::find_place(const CratePlace& place, btScalar 
     return from;
 }
 
-void Crates::add(Crate& crate) {
+void Crates::add(Crate& crate, const btTransform& place) {
     btVector3 inertia;
     shape_.calculateLocalInertia(CRATE_KG, inertia);
     btRigidBody::btRigidBodyConstructionInfo info(CRATE_KG, nullptr, &shape_, inertia);
-    info.m_startWorldTransform = crate.start;
+    info.m_startWorldTransform = place;
     info.m_friction = 0.6f;
     info.m_restitution = 0.35f;  // of a ball that hits it a fifth: a contact has the product of both sides
     info.m_linearDamping = 0.05f;
     info.m_angularDamping = 0.2f;
     crate.body = std::make_unique<btRigidBody>(info);
-    crate.last = crate.start.getOrigin();
+    crate.last = place.getOrigin();
     physics_.world().addRigidBody(crate.body.get(), GROUP_CRATE,
                                   GROUP_LEVEL | GROUP_BALL | GROUP_CRATE | GROUP_CHARACTER);
 }
@@ -81,9 +83,18 @@ void Crates::remove(Crate& crate) {
     crate.body.reset();
 }
 
-void Crates::restart() {
-    for (Crate& crate : crates_) remove(crate);
-    for (Crate& crate : crates_) add(crate);
+void Crates::restore(const Crates& others, const std::vector<BodySnapshot>& snapshots) {
+    for (std::size_t i = 0; i < snapshots.size(); ++i) {
+        crates_.push_back({others.crates_[i].start, nullptr, {}});
+        add(crates_.back(), place_of(snapshots[i]));
+        restore_motion(*crates_.back().body, snapshots[i]);
+    }
+}
+
+std::vector<BodySnapshot> Crates::take() const {
+    std::vector<BodySnapshot> snapshots;
+    for (const Crate& crate : crates_) snapshots.push_back(take_snapshot(*crate.body));
+    return snapshots;
 }
 
 void Crates::push(const Character& character, btScalar dt_s) {
@@ -122,7 +133,7 @@ void Crates::hold() {
         crate.last = body.getWorldTransform().getOrigin();
         if (crate.last.y() >= lowest_m_) continue;
         remove(crate);
-        add(crate);
+        add(crate, crate.start);
     }
 }
 

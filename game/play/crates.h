@@ -13,15 +13,17 @@ namespace game {
 
 class Crates {
   public:
-    // Those of the level's places that have room and a floor, each dropped onto what is below it. Crates that
-    // fall below `lowest_m` start again.
-    Crates(Physics& physics, const Level& level, btScalar lowest_m);
+    // None yet. Crates that fall below `lowest_m` start again.
+    Crates(Physics& physics, btScalar lowest_m);
     ~Crates();
     Crates(const Crates&) = delete;
     Crates& operator=(const Crates&) = delete;
 
-    // All as at the start.
-    void restart();
+    // Those of the level's places that have room and a floor, each dropped onto what is below it.
+    void place(const Level& level);
+    // Those of other crates of the same level, with their starts.
+    void restore(const Crates& others, const std::vector<BodySnapshot>& snapshots);
+    std::vector<BodySnapshot> take() const;
     // Pushes what stands in the way of who walks. Call before the world's step of `dt_s` seconds.
     void push(const Character& character, btScalar dt_s);
     // Call after the world's step. A crate whose middle has passed a surface of the level is put back.
@@ -36,7 +38,7 @@ class Crates {
     };
 
     std::optional<btTransform> find_place(const CratePlace& place, btScalar depth_m) const;
-    void add(Crate& crate);
+    void add(Crate& crate, const btTransform& place);
     void remove(Crate& crate);
 
     Physics& physics_;

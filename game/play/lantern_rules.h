@@ -20,9 +20,11 @@ class LanternRules {
 
     static constexpr double REACH_M = 3.0;  // from the eye
 
+    // Counts the dead lanterns and those of them that are lit.
+    void count(PlayState& state) const;
+
   private:
     int find_aimed(const Vec3& eye, const Vec3& ahead) const;
-    void count(PlayState& state) const;
 
     std::vector<Lantern> lanterns_;
 };

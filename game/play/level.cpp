@@ -13,6 +13,7 @@ namespace {
 
 constexpr double LANTERN_LIMIT_M = 1.0;  // what is larger is no lantern
 constexpr int LANTERNS_PER_DEAD = 3;
+constexpr int COURT_FIREFLIES = 60;
 
 void add_point(Box& box, const Vec3& point) {
     box.lower = {std::min(box.lower.x, point.x), std::min(box.lower.y, point.y),
@@ -99,6 +100,7 @@ Level make_level(const Scene& scene) {
     place_start(level, scene.default_camera(16.0 / 9.0));
     level.lanterns = find_lanterns(scene, parts);
     level.crates = find_crate_places(scene.name(), level);
+    if (scene.name() == "lantern_court") level.fireflies = COURT_FIREFLIES;
     return level;
 }
 

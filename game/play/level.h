@@ -35,10 +35,12 @@ struct Level {
     double half_height = 0.5;  // of the camera's image plane at 1 m
     std::vector<Lantern> lanterns;
     std::vector<CratePlace> crates;  // wished for: those without room there are left out
+    int fireflies = 0;               // wished for, as well
 };
 
 // Solid is what no animation moves and no texture cuts holes into, as into leaves. Play starts at the scene's
 // first camera. Every third of the lanterns that stand still is dead.
+// Fireflies are in lantern_court alone, unless somebody wishes for some.
 Level make_level(const Scene& scene);
 
 // Of the solid triangles, the start and the crates: replays name the level that they were recorded in by it.

@@ -1,5 +1,7 @@
 #include "physics.h"
 
+#include <utility>
+
 namespace game {
 namespace {
 
@@ -14,8 +16,18 @@ struct ContactFound final : btCollisionWorld::ContactResultCallback {
 
 }  // namespace
 
-Physics::Physics(const Level& level)
-    : origin_(level.origin),
+LevelShape::LevelShape(const Level& level) : origin(level.origin) {
+    mesh.preallocateVertices(int(3 * level.triangles.size()));
+    mesh.preallocateIndices(int(3 * level.triangles.size()));
+    for (const std::array<float, 9>& t : level.triangles) {
+        mesh.addTriangle(btVector3(t[0], t[1], t[2]), btVector3(t[3], t[4], t[5]),
+                         btVector3(t[6], t[7], t[8]));
+    }
+    if (!level.triangles.empty()) triangles = std::make_unique<btBvhTriangleMeshShape>(&mesh, true);
+}
+
+Physics::Physics(std::shared_ptr<LevelShape> shape)
+    : shape_(std::move(shape)),
       dispatcher_(&configuration_),
       world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
     broadphase_.getOverlappingPairCache()->setInternalGhostPairCallback(&ghost_pairs_);
@@ -26,15 +38,8 @@ Physics::Physics(const Level& level)
     world_.getSolverInfo().m_splitImpulsePenetrationThreshold = 0.0f;
     // How far a sweep may end inside of what it hits: by default four centimetres.
     world_.getDispatchInfo().m_allowedCcdPenetration = 0.02f;
-    mesh_.preallocateVertices(int(3 * level.triangles.size()));
-    mesh_.preallocateIndices(int(3 * level.triangles.size()));
-    for (const std::array<float, 9>& t : level.triangles) {
-        mesh_.addTriangle(btVector3(t[0], t[1], t[2]), btVector3(t[3], t[4], t[5]),
-                          btVector3(t[6], t[7], t[8]));
-    }
-    if (level.triangles.empty()) return;
-    shape_ = std::make_unique<btBvhTriangleMeshShape>(&mesh_, true);
-    body_ = add_still(*shape_);
+    if (shape_->triangles) body_ = add_still(*shape_->triangles);
+    if (shape_->ground) ground_ = add_still(*shape_->ground);
 }
 
 Physics::~Physics() {
@@ -52,16 +57,18 @@ std::unique_ptr<btRigidBody> Physics::add_still(btCollisionShape& shape) {
 }
 
 void Physics::add_ground(btScalar height_m) {
-    ground_shape_ = std::make_unique<btStaticPlaneShape>(btVector3(0.0f, 1.0f, 0.0f), height_m);
-    ground_ = add_still(*ground_shape_);
+    shape_->ground = std::make_unique<btStaticPlaneShape>(btVector3(0.0f, 1.0f, 0.0f), height_m);
+    ground_ = add_still(*shape_->ground);
 }
 
 btVector3 Physics::to_local(const Vec3& p) const {
-    return {btScalar(p.x - origin_.x), btScalar(p.y - origin_.y), btScalar(p.z - origin_.z)};
+    const Vec3& o = shape_->origin;
+    return {btScalar(p.x - o.x), btScalar(p.y - o.y), btScalar(p.z - o.z)};
 }
 
 Vec3 Physics::to_world(const btVector3& p) const {
-    return {double(p.x()) + origin_.x, double(p.y()) + origin_.y, double(p.z()) + origin_.z};
+    const Vec3& o = shape_->origin;
+    return {double(p.x()) + o.x, double(p.y()) + o.y, double(p.z()) + o.z};
 }
 
 bool Physics::is_surface_between(const btVector3& from, const btVector3& to) const {
@@ -73,6 +80,18 @@ bool Physics::is_surface_between(const btVector3& from, const btVector3& to) con
     return way.hasHit();
 }
 
+btScalar Physics::sweep(const btConvexShape& shape, const btVector3& from, const btVector3& to,
+                        int mask) const {
+    btCollisionWorld::ClosestConvexResultCallback hit(from, to);
+    hit.m_collisionFilterGroup = GROUP_BALL;
+    hit.m_collisionFilterMask = mask;
+    btTransform start = btTransform::getIdentity(), end = btTransform::getIdentity();
+    start.setOrigin(from);
+    end.setOrigin(to);
+    world_.convexSweepTest(&shape, start, end, hit);
+    return hit.m_closestHitFraction;
+}
+
 bool Physics::touches(const btConvexShape& shape, const btTransform& place, int mask) {
     btCollisionObject object;
     object.setCollisionShape(const_cast<btConvexShape*>(&shape));
@@ -82,6 +101,34 @@ bool Physics::touches(const btConvexShape& shape, const btTransform& place, int 
     contact.m_collisionFilterMask = mask;
     world_.contactTest(&object, contact);
     return contact.found;
+}
+
+BodySnapshot take_snapshot(const btRigidBody& body) {
+    BodySnapshot snapshot;
+    const btTransform& place = body.getWorldTransform();
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column)
+            snapshot.turn[std::size_t(3 * row + column)] = place.getBasis()[row][column];
+    }
+    snapshot.middle = to_array(place.getOrigin());
+    snapshot.velocity = to_array(body.getLinearVelocity());
+    snapshot.spin = to_array(body.getAngularVelocity());
+    snapshot.activation = body.getActivationState();
+    snapshot.still_s = body.getDeactivationTime();
+    return snapshot;
+}
+
+btTransform place_of(const BodySnapshot& snapshot) {
+    const std::array<float, 9>& t = snapshot.turn;
+    return btTransform{btMatrix3x3(t[0], t[1], t[2], t[3], t[4], t[5], t[6], t[7], t[8]),
+                       to_vector(snapshot.middle)};
+}
+
+void restore_motion(btRigidBody& body, const BodySnapshot& snapshot) {
+    body.setLinearVelocity(to_vector(snapshot.velocity));
+    body.setAngularVelocity(to_vector(snapshot.spin));
+    body.forceActivationState(snapshot.activation);
+    body.setDeactivationTime(snapshot.still_s);
 }
 
 }  // namespace game

@@ -1,18 +1,17 @@
 // What somebody did in the sandbox, step by step, as a text file.
 //
-//     tarn-sandbox-replay 2
+//     tarn-sandbox-replay 4
 //     scene NAME                     a file, or a scene of the project
 //     level HASH                     of what is solid: 16 hexadecimal digits
 //     size WIDTH HEIGHT              of the pictures, pixels
 //     seed NUMBER                    of all random numbers
+//     fireflies NUMBER               that were wished for
 //     set NAME VALUE                 a setting; once for each
-//     step COUNT RIGHT FORWARD KEYS LOOK_RIGHT LOOK_DOWN WHEEL
+//     step COUNT RIGHT ...           as in step_line.h
 //     end STEPS HASH                 how many steps those were, and the state after them
 //
 // A file that is cut off, as by a program that was killed, holds what was done until then: the lines that are
 // whole. It has no state to hold its end against.
-// COUNT steps had the same input. RIGHT and FORWARD: -100 to 100, percent of the speed. KEYS: those letters
-// of "rcjtuxf" that were down (run, crouch, jump, throw, use, restart, torch), "-" for none.
 #pragma once
 
 #include <cstddef>
@@ -32,6 +31,7 @@ struct Replay {
     int width_px = 0;
     int height_px = 0;
     std::uint32_t seed = 0;
+    int fireflies = 0;
     std::vector<std::pair<std::string, std::string>> settings;  // name, value
     std::vector<StepInput> steps;
     std::uint64_t state_hash = 0;  // after the last step
@@ -43,9 +43,8 @@ struct Replay {
 // Error that names the file and the line, and what is wrong with it; also for a file without any whole step.
 Replay load_replay(const std::filesystem::path& file);
 
-// Lines of such a file: all before the first step, `count` steps with the same input, and the end.
+// Lines of such a file: all before the first step, and the end.
 std::string describe_head(const Replay& replay);
-std::string describe_steps(std::size_t count, const StepInput& input);
 std::string describe_end(std::size_t steps, std::uint64_t state_hash);
 
 }  // namespace game

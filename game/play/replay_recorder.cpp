@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "../tarn_names.h"
+#include "step_line.h"
 
 namespace game {
 namespace {

@@ -1,5 +1,5 @@
-// The sandbox's world: a person who walks, glowing balls, crates, lanterns. Its state is a function of the
-// level and of the inputs so far, to the bit.
+// The sandbox's world: a person who walks, glowing balls, crates, lanterns, fireflies. Its state is a
+// function of the level and of the inputs so far, to the bit.
 #pragma once
 
 #include <cstdint>
@@ -17,6 +17,11 @@ inline constexpr int BALL_LIMIT = 50;  // a further one takes the place of the o
 inline constexpr double BALL_RADIUS_M = 0.15;
 inline constexpr double CRATE_HALF_M = 0.3;  // of their edge
 inline constexpr int PLAY_COLORS = 8;        // of balls and lanterns
+inline constexpr int FIREFLY_LIMIT = 1000;
+// Every so many steps all bodies are made anew from a snapshot, in every run, so that nothing which a
+// snapshot does not hold, such as Bullet's contacts, outlives it: a save is the last snapshot and the inputs
+// since.
+inline constexpr int SNAPSHOT_STEPS = 600;
 
 struct PlayerState {
     Vec3 feet;  // world space, metres
@@ -47,12 +52,19 @@ struct LanternState {
     bool is_lit = true;
     int color = -1;           // below PLAY_COLORS; -1: the scene's own
     double brightness = 1.0;  // relative to the scene's own
+
+    bool operator==(const LanternState&) const = default;
 };
 
 struct TorchState {
     bool is_lit = false;
     Vec3 position;            // of its flame, world space, metres
     double brightness = 0.0;  // relative to its mean; 0: not lit
+};
+
+struct FireflyState {
+    Vec3 position;            // world space, metres
+    double brightness = 0.0;  // relative to its brightest; above 0
 };
 
 struct PlayState {
@@ -62,12 +74,15 @@ struct PlayState {
     std::vector<CrateState> crates;      // always as many
     std::vector<LanternState> lanterns;  // as in the level
     TorchState torch;
-    int aimed_lantern = -1;           // within reach, in the middle of the view; -1: none
-    int next_color = 0;               // of the next ball
-    int dead_count = 0;               // lanterns that were dead
-    int relit_count = 0;              // and are lit now
-    std::uint64_t finished_step = 0;  // when all were lit for the first time; 0: not yet
+    std::vector<FireflyState> fireflies;  // always as many
+    int aimed_lantern = -1;               // within reach, in the middle of the view; -1: none
+    int next_color = 0;                   // of the next ball
+    int dead_count = 0;                   // lanterns that were dead
+    int relit_count = 0;                  // and are lit now
+    std::uint64_t finished_step = 0;      // when all were lit for the first time; 0: not yet
 };
+
+struct SavedPlay;
 
 // Of every number in it.
 std::uint64_t compute_hash(const PlayState& state);
@@ -84,6 +99,11 @@ class Simulation {
     void step(const StepInput& input);
 
     const PlayState& state() const;
+
+    // What load() needs to be in this state again, and to go on from it with the same bits.
+    SavedPlay save() const;
+    // Error where it is of a level with other lanterns or crates; then all stays as it is.
+    void load(const SavedPlay& saved);
 
   private:
     struct Parts;

@@ -68,7 +68,8 @@ Vec3 lantern_emission(const Vec3& own, const LanternState& lantern) {
 
 }  // namespace
 
-Actors::Actors(Scene& scene, const Level& level, const PlayState& start) : scene_(scene) {
+Actors::Actors(Scene& scene, const Level& level, const PlayState& start)
+    : scene_(scene), fireflies_(scene, start.fireflies, parking_place(level, 0).translation) {
     for (int i = 0; i < BALL_LIMIT; ++i) {
         Ball ball;
         ball.parked = parking_place(level, i);
@@ -132,7 +133,8 @@ void Actors::show_lantern(LanternActor& lantern, const LanternState& state) {
     lantern.shown = state;
 }
 
-void Actors::show(const PlayState& state) {
+void Actors::show(const PlayState& state, int lit_fireflies) {
+    fireflies_.show(state.fireflies, lit_fireflies);
     show_torch(state.torch);
     for (std::size_t i = 0; i < balls_.size(); ++i) show_ball(balls_[i], state.balls[i]);
     for (std::size_t i = 0; i < crates_.size(); ++i) show_crate(crates_[i], state.crates[i]);

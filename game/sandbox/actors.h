@@ -1,23 +1,24 @@
-// The scene's part in the play: balls, crates, lanterns and a torch, as the simulation says where and how
-// bright they are.
+// The scene's part in the play: balls, crates, lanterns, fireflies and a torch, as the simulation says where
+// and how bright they are.
 #pragma once
 
 #include <vector>
 
 #include "../play/level.h"
 #include "../play/simulation.h"
+#include "firefly_lamps.h"
 
 namespace game {
 
 class Actors {
   public:
-    // Adds all balls, dark and out of sight, and the crates of the first state, and gives each lantern
+    // Adds all balls, dark and out of sight, crates and fireflies of the first state, and gives each lantern
     // materials of its own: before the first frame, since views begin anew after it. The scene must outlive
     // this.
     Actors(Scene& scene, const Level& level, const PlayState& start);
 
-    // Moves and switches what differs from the last call.
-    void show(const PlayState& state);
+    // Moves and switches what differs from the last call. Of the fireflies the first `lit_fireflies` shine.
+    void show(const PlayState& state, int lit_fireflies);
 
   private:
     struct Ball {
@@ -50,6 +51,7 @@ class Actors {
     std::vector<LanternActor> lanterns_;
     Node torch_;
     TorchState torch_shown_;
+    FireflyLamps fireflies_;
 };
 
 }  // namespace game

@@ -29,19 +29,29 @@ void ControlReader::capture_mouse(bool captured) {
     input_.capture_mouse(captured);
 }
 
+bool ControlReader::is_held(Action action) const {
+    const std::vector<int>& keys = keys_.keys(action);
+    return std::any_of(keys.begin(), keys.end(), [&](int key) { return input_.is_held(key); });
+}
+
+bool ControlReader::was_pressed(Action action) const {
+    const std::vector<int>& keys = keys_.keys(action);
+    return std::any_of(keys.begin(), keys.end(), [&](int key) { return input_.was_pressed(key); });
+}
+
 void ControlReader::read_play(StepInput& play, const PadState& pad, double dt_s) {
-    const auto axis = [&](int positive, int negative) {
-        return FULL_SPEED * (int(input_.is_held(positive)) - int(input_.is_held(negative)));
+    const auto axis = [&](Action positive, Action negative) {
+        return FULL_SPEED * (int(is_held(positive)) - int(is_held(negative)));
     };
-    play.right = axis(GLFW_KEY_D, GLFW_KEY_A);
-    play.forward = axis(GLFW_KEY_W, GLFW_KEY_S);
-    play.run = input_.is_held(GLFW_KEY_LEFT_SHIFT) || input_.is_held(GLFW_KEY_RIGHT_SHIFT);
-    play.crouch = input_.is_held(GLFW_KEY_C) || input_.is_held(GLFW_KEY_LEFT_CONTROL);
-    play.jump = input_.was_pressed(GLFW_KEY_SPACE);
+    play.right = axis(Action::RIGHT, Action::LEFT);
+    play.forward = axis(Action::FORWARD, Action::BACK);
+    play.run = is_held(Action::RUN);
+    play.crouch = is_held(Action::CROUCH);
+    play.jump = was_pressed(Action::JUMP);
     play.throw_ball = input_.was_clicked(GLFW_MOUSE_BUTTON_LEFT);
-    play.use = input_.was_pressed(GLFW_KEY_E);
-    play.torch = input_.was_pressed(GLFW_KEY_F);
-    play.restart = input_.was_pressed(GLFW_KEY_R);
+    play.use = was_pressed(Action::USE);
+    play.torch = was_pressed(Action::TORCH);
+    play.restart = was_pressed(Action::RESTART);
     add_pad(pad, pad_, play);
     Vec2 way = input_.take_mouse_way();
     if (unsettled_looks_ > 0) {
@@ -62,10 +72,15 @@ Controls ControlReader::read(double dt_s) {
     const PadState pad = read_gamepad();
     controls.pause = pad_.is_there && pad.start && !pad_.start;
     controls.leave = input_.was_pressed(GLFW_KEY_ESCAPE);
-    controls.help = input_.was_pressed(GLFW_KEY_F1);
-    controls.panel = input_.was_pressed(GLFW_KEY_F2);
-    controls.fullscreen = input_.was_pressed(GLFW_KEY_F11);
-    controls.screenshot = input_.was_pressed(GLFW_KEY_F12);
+    controls.help = was_pressed(Action::HELP);
+    controls.panel = was_pressed(Action::PANEL);
+    controls.save = was_pressed(Action::SAVE);
+    controls.load = was_pressed(Action::LOAD);
+    controls.fullscreen = was_pressed(Action::FULLSCREEN);
+    const std::vector<int>& keys = keys_.keys(Action::SCREENSHOT);
+    controls.radiance =
+        std::any_of(keys.begin(), keys.end(), [&](int key) { return input_.was_pressed_with_shift(key); });
+    controls.screenshot = !controls.radiance && was_pressed(Action::SCREENSHOT);
     controls.files = input_.dropped_files();
     if (has_mouse_) {
         read_play(controls.play, pad, dt_s);

@@ -7,26 +7,30 @@
 #include "../gamepad.h"
 #include "../play/step_input.h"
 #include "../window_input.h"
+#include "key_map.h"
 
 namespace game {
 
 // What a person did since the last frame.
 struct Controls {
-    StepInput play;                  // with all that was pressed since then; only while the mouse is captured
-    bool leave = false;              // Escape
-    bool pause = false;              // a gamepad's start: free the mouse, or go on
-    bool click = false;              // the left button, while the mouse is free
-    bool help = false;               // F1
-    bool panel = false;              // F2
-    bool fullscreen = false;         // F11
-    bool screenshot = false;         // F12
+    StepInput play;      // with all that was pressed since then; only while the mouse is captured
+    bool leave = false;  // Escape
+    bool pause = false;  // a gamepad's start: free the mouse, or go on
+    bool click = false;  // the left button, while the mouse is free
+    bool help = false;
+    bool panel = false;
+    bool save = false;
+    bool load = false;
+    bool fullscreen = false;
+    bool screenshot = false;         // as the eye sees it
+    bool radiance = false;           // the same key with Shift: a screenshot of linear radiance
     std::vector<std::string> files;  // that were dropped on the window
 };
 
 class ControlReader {
   public:
     // Hears the window's keys before widgets do.
-    explicit ControlReader(Window& window) : input_(window) {}
+    ControlReader(Window& window, const KeyMap& keys) : input_(window), keys_(keys) {}
 
     // Call after Window::poll_events(), `dt_s` seconds after the last time.
     Controls read(double dt_s);
@@ -37,7 +41,11 @@ class ControlReader {
   private:
     void read_play(StepInput& play, const PadState& pad, double dt_s);
 
+    bool is_held(Action action) const;
+    bool was_pressed(Action action) const;
+
     WindowInput input_;
+    KeyMap keys_;
     PadState pad_;  // at the last look
     bool has_mouse_ = false;
     int unsettled_looks_ = 0;  // since it was captured: until the pointer is where the window system wants it

@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "../session.h"
 
@@ -24,6 +28,15 @@ bool present(View& view, Window& window) {
     if (size.width_px > 0 && size.height_px > 0) view.present(size.width_px, size.height_px);
     window.swap();
     return !window.should_close();
+}
+
+// The first frames find nothing to reuse, and build what later ones keep.
+void print_times(std::vector<double> frame_ms) {
+    constexpr std::size_t FIRST = 4;
+    if (frame_ms.size() > FIRST) frame_ms.erase(frame_ms.begin(), frame_ms.begin() + FIRST);
+    const auto middle = frame_ms.begin() + std::ptrdiff_t(frame_ms.size() / 2);
+    std::nth_element(frame_ms.begin(), middle, frame_ms.end());
+    fmt::print("median of {} frames: {:.1f} ms\n", frame_ms.size(), *middle);
 }
 
 void check_end(const Stage& stage, const Replay& replay, const std::filesystem::path& file) {
@@ -64,11 +77,17 @@ void play_replay(Stage& stage, const Replay& replay, const ReplayOptions& option
     View view(engine, stage.scene(), replay.width_px, replay.height_px);
     const std::size_t every = std::size_t(options.every);
     std::uint32_t frame = 0;
+    std::vector<double> frame_ms;
     for (std::size_t step = 0;; ++step) {
         if (step % every == 0) {
             if (options.stop && options.stop()) return;
+            // All that a frame costs: moving the scene to the step, updating what the view keeps of it,
+            // drawing.
+            const auto start = std::chrono::steady_clock::now();
             stage.show();
             view.draw(stage.make_frame(look, frame, STEP_S * options.every));
+            frame_ms.push_back(
+                std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
             if (!options.folder.empty())
                 view.write_png(options.folder / fmt::format("frame_{:06}.png", frame));
             if (window != nullptr && !present(view, *window)) return;
@@ -77,6 +96,7 @@ void play_replay(Stage& stage, const Replay& replay, const ReplayOptions& option
         if (step == replay.steps.size()) break;
         stage.step(replay.steps[step]);
     }
+    if (options.prints_times) print_times(std::move(frame_ms));
     check_end(stage, replay, options.file);
 }
 

@@ -15,6 +15,7 @@ struct ReplayOptions {
     std::filesystem::path folder;  // where frame_000000.png and so on go; empty: nowhere
     int every = 1;                 // steps a frame
     int threads = 0;               // as for EngineOptions
+    bool prints_times = false;     // one line on stdout, at the end
     std::function<bool()> stop;    // asked before each frame; true: end. Empty: never
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <thread>
 #include <utility>
 
@@ -14,6 +15,7 @@ namespace {
 constexpr double LONGEST_FRAME_S = 0.25;  // on a slower machine time goes slower, not farther a frame
 constexpr auto RESIZE_DELAY = std::chrono::milliseconds(250);
 constexpr auto MESSAGE_TIME = std::chrono::seconds(5);
+constexpr auto AUTOSAVE_TIME = std::chrono::seconds(30);
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -27,13 +29,17 @@ Sandbox::Sandbox(Window& window, std::unique_ptr<Stage> stage, const SandboxOpti
       engine_(open_engine(&window, options.threads)),
       source_(options.source),
       stage_(std::move(stage)),
-      controls_(window),
+      controls_(window, options.keys),
       widgets_(window) {
     look_.settings = options.settings;
     look_.preset = options.preset;
     look_.frame_ms = float(options.frame_ms);
+    look_.fireflies = int(stage_->state().fireflies.size());
     facts_.shows_help = true;
+    facts_.help = list_help(options.keys);
     if (!options.record.empty()) start_record();
+    find_saves();
+    if (options.continues) load(SaveKind::AUTOMATIC);
     window_.set_vsync(true);
     controls_.capture_mouse(true);
 }
@@ -46,6 +52,7 @@ void Sandbox::start_record() {
     head.width_px = std::max(1, size.width_px);
     head.height_px = std::max(1, size.height_px);
     head.seed = options_.seed;
+    head.fireflies = stage_->wished_fireflies();
     for (const SettingInfo& row : Settings::list())
         head.settings.emplace_back(row.name, options_.settings.get(row.name));
     recorder_ = std::make_unique<ReplayRecorder>(options_.record, head);
@@ -58,6 +65,7 @@ void Sandbox::run() {
         const double dt_s = seconds_since(last);
         last = Clock::now();
         if (recorder_) recorder_->flush_when_due();
+        save_when_due();
         if (window_.is_minimized()) {
             std::this_thread::sleep_for(std::chrono::milliseconds(50));
             continue;
@@ -65,11 +73,53 @@ void Sandbox::run() {
         follow_window_size();
         show_frame(dt_s);
     }
-    end_record();
+    end_record(compute_hash(stage_->state()));
+    if (saves_ && stage_->state().step != saved_step_) saves_->write(SaveKind::AUTOMATIC, *stage_);
 }
 
-void Sandbox::end_record() {
-    if (recorder_) recorder_->end(compute_hash(stage_->state()));
+void Sandbox::find_saves() {
+    if (!options_.saves.empty())
+        saves_ = std::make_unique<Saves>(options_.saves, source_.scene, stage_->level_hash());
+    saved_at_ = Clock::now();
+}
+
+void Sandbox::save() try {
+    if (!saves_) return report("nothing can be saved: there is no folder for it");
+    saves_->write(SaveKind::ASKED_FOR, *stage_);
+    report("saved " + saves_->file(SaveKind::ASKED_FOR).string());
+} catch (const Error& error) {
+    report(error.what());
+}
+
+void Sandbox::load(SaveKind kind) try {
+    const std::uint64_t before = compute_hash(stage_->state());
+    if (!saves_ || !saves_->load(kind, *stage_))
+        return report(kind == SaveKind::ASKED_FOR ? "nothing is saved in this level yet"
+                                                  : "nothing to go on from in this level yet");
+    // A record knows inputs alone.
+    const std::string also = recorder_ ? "; the record has ended" : "";
+    end_record(before);
+    waiting_ = {};
+    behind_s_ = 0.0;
+    if (view_) view_->reset_history();
+    report("loaded " + saves_->file(kind).string() + also);
+} catch (const Error& error) {
+    fmt::print(stderr, "tarn-sandbox: {}\n", error.what());
+    report(error.what());
+}
+
+// What cannot be written now is said, and tried again later.
+void Sandbox::save_when_due() try {
+    if (!saves_ || Clock::now() - saved_at_ < AUTOSAVE_TIME) return;
+    saved_at_ = Clock::now();
+    if (std::exchange(saved_step_, stage_->state().step) == stage_->state().step) return;
+    saves_->write(SaveKind::AUTOMATIC, *stage_);
+} catch (const Error& error) {
+    report(error.what());
+}
+
+void Sandbox::end_record(std::uint64_t state_hash) {
+    if (recorder_) recorder_->end(state_hash);
     recorder_.reset();
 }
 
@@ -83,10 +133,13 @@ void Sandbox::open(const std::string& file) {
                                            std::max(1, size.height_px));
         // A record is of one level under one sky.
         const std::string also = recorder_ ? "; the record has ended" : "";
-        end_record();
+        end_record(compute_hash(stage_->state()));
+        if (saves_) saves_->write(SaveKind::AUTOMATIC, *stage_);
         view_ = std::move(view);
         stage_ = std::move(stage);
         source_ = source;
+        find_saves();
+        look_.fireflies = int(stage_->state().fireflies.size());
         waiting_ = {};
         behind_s_ = 0.0;
         timings_.clear();
@@ -140,7 +193,9 @@ void Sandbox::handle_controls(const Controls& controls) {
     const bool begins = controls.play.forward != 0 || controls.play.right != 0;
     if (begins && stage_->state().step < 2 * STEPS_PER_S) facts_.shows_help = false;
     if (controls.fullscreen) window_.set_fullscreen(!window_.is_fullscreen());
-    if (controls.screenshot) save_screenshot();
+    if (controls.screenshot || controls.radiance) save_screenshot(controls.radiance);
+    if (controls.save) save();
+    if (controls.load) load(SaveKind::ASKED_FOR);
     for (const std::string& file : controls.files) open(file);
     facts_.has_mouse = controls_.has_mouse();
 }
@@ -161,6 +216,7 @@ void Sandbox::play(const Controls& controls, double dt_s) {
     }
     for (; behind_s_ >= STEP_S; behind_s_ -= STEP_S) step(std::exchange(waiting_, without_presses(waiting_)));
     facts_.step_ms = 1e3 * seconds_since(start);
+    stage_->set_lit_fireflies(look_.fireflies);
     stage_->show();
 }
 
@@ -197,18 +253,23 @@ void Sandbox::update_title() {
     const auto balls = std::count_if(state.balls.begin(), state.balls.end(),
                                      [](const BallState& ball) { return ball.is_alive; });
     window_.set_title(
-        fmt::format("Tarn sandbox: {} {}x{} x={:.2f} y={:.2f} z={:.2f} yaw={:.2f} balls={} lit={}/{} {} "
+        fmt::format("Tarn sandbox: {} {}x{} x={:.2f} y={:.2f} z={:.2f} yaw={:.2f} balls={} lit={}/{} "
+                    "fireflies={} {} "
                     "step={} rung={} frame={}",
                     source_.scene, facts_.width_px, facts_.height_px, feet.x, feet.y, feet.z,
-                    state.player.yaw_rad, balls, state.relit_count, state.dead_count,
+                    state.player.yaw_rad, balls, state.relit_count, state.dead_count, look_.fireflies,
                     facts_.has_mouse ? "playing" : "paused", state.step, facts_.rung, frame_));
 }
 
-void Sandbox::save_screenshot() {
+void Sandbox::save_screenshot(bool as_radiance) {
     if (frame_ == 0) return;
     try {
-        const std::filesystem::path file = find_new_picture("sandbox");
-        view_->write_png(file);
+        const std::filesystem::path file = find_new_picture("sandbox", as_radiance ? "exr" : "png");
+        if (as_radiance) {
+            view_->read().write_exr(file);
+        } else {
+            view_->write_png(file);
+        }
         report("wrote " + file.string());
     } catch (const Error& error) {
         report(error.what());

@@ -14,6 +14,7 @@
 #include "controls.h"
 #include "governor.h"
 #include "sandbox_panel.h"
+#include "saves.h"
 #include "stage_source.h"
 
 namespace game {
@@ -26,7 +27,10 @@ struct SandboxOptions {
     int threads = 0;               // as for EngineOptions
     double frame_ms = 0.0;         // what a frame may take (Governor); 0: as long as it does
     std::filesystem::path record;  // written while it is played; empty: nothing
-    std::function<bool()> stop;    // asked before each frame; true: quit. Empty: never
+    std::filesystem::path saves;   // the folder of saves; empty: nothing is saved
+    KeyMap keys;
+    bool continues = false;      // begins where the automatic save is, if there is one
+    std::function<bool()> stop;  // asked before each frame; true: quit. Empty: never
 };
 
 class Sandbox {
@@ -35,7 +39,7 @@ class Sandbox {
     // written.
     Sandbox(Window& window, std::unique_ptr<Stage> stage, const SandboxOptions& options);
 
-    // Until the user quits. Error where the record cannot be written.
+    // Until the user quits. Error where the record, or the automatic save at the end, cannot be written.
     void run();
 
     // For those whom SandboxOptions::stop asks.
@@ -54,11 +58,15 @@ class Sandbox {
     void draw(double dt_s);
     Settings govern(double dt_s);
     void update_title();
-    void save_screenshot();
+    void save_screenshot(bool as_radiance);
     void report(const std::string& message);
     void open(const std::string& file);
     void start_record();
-    void end_record();
+    void end_record(std::uint64_t state_hash);
+    void find_saves();
+    void save();
+    void load(SaveKind kind);
+    void save_when_due();
 
     SandboxOptions options_;
     Window& window_;
@@ -74,9 +82,12 @@ class Sandbox {
     RecentTimings timings_;
     Governor governor_;
     std::unique_ptr<ReplayRecorder> recorder_;  // null: nothing is recorded
-    StepInput waiting_;                         // pressed, and no step has come since
-    double behind_s_ = 0.0;                     // of the simulation
-    double loop_s_ = 0.0;                       // from frame to frame, smoothed
+    std::unique_ptr<Saves> saves_;              // of this level; null: nothing is saved
+    std::uint64_t saved_step_ = 0;              // of the last automatic save
+    Clock::time_point saved_at_;
+    StepInput waiting_;      // pressed, and no step has come since
+    double behind_s_ = 0.0;  // of the simulation
+    double loop_s_ = 0.0;    // from frame to frame, smoothed
     std::uint32_t frame_ = 0;
     bool has_focus_ = false;
     Size wanted_size_;  // and since when

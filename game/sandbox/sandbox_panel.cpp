@@ -16,22 +16,6 @@ constexpr ImGuiWindowFlags PLAIN = ImGuiWindowFlags_NoDecoration | ImGuiWindowFl
                                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
 constexpr const char* SCALE_ROW = "scale";
 
-constexpr const char* HELP =
-    "W A S D    walk            Mouse      look around\n"
-    "Shift      run             Space      jump\n"
-    "C, Ctrl    crouch          R          start again\n"
-    "Left button  throw a glowing ball; the wheel chooses its colour\n"
-    "E          light the lantern you look at, or put it out\n"
-    "F          take out a torch, or put it away\n"
-    "Wheel      recolour that lantern; with Shift: dim it\n"
-    "F1 help   F2 panel   F11 fullscreen   F12 screenshot\n"
-    "Gamepad: sticks walk and look, A jumps, B crouches, X acts as E,\n"
-    "         right trigger throws, left trigger runs, start pauses\n"
-    "Drop a .gltf or .glb file here to play in it, an .hdr or .exr file as its sky\n"
-    "Escape     free the mouse, then quit\n"
-    "\n"
-    "Some lanterns of the court are dead: find and light them all.";
-
 void write(const std::string& text) {
     ImGui::TextUnformatted(text.c_str());
 }
@@ -105,6 +89,13 @@ void draw_governor(float& frame_ms, const SandboxFacts& facts) {
         write(fmt::format("step {} of {}: {}", facts.rung, facts.rungs - 1, facts.rung_sentence));
 }
 
+void draw_fireflies(int& lit, int count) {
+    if (count == 0) return;
+    ImGui::SliderInt("fireflies", &lit, 0, count, fmt::format("%d of {}", count).c_str(),
+                     ImGuiSliderFlags_AlwaysClamp);
+    add_tooltip("how many of them shine");
+}
+
 void draw_costs(const SandboxFacts& facts) {
     write(fmt::format("{}x{}  {:.1f} ms a frame, {:.1f} frames/s", facts.width_px, facts.height_px,
                       facts.cost.frame_ms, facts.frames_per_s));
@@ -124,7 +115,7 @@ void draw_costs(const SandboxFacts& facts) {
 }
 
 // At most half of the window's width.
-void draw_panel_window(SandboxSettings& settings, const SandboxFacts& facts) {
+void draw_panel_window(SandboxSettings& settings, const SandboxFacts& facts, const PlayState& state) {
     static const std::vector<SettingInfo> ROWS = Settings::list();
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const float width = std::min(22.0f * ImGui::GetFontSize(), 0.5f * size.x);
@@ -138,6 +129,7 @@ void draw_panel_window(SandboxSettings& settings, const SandboxFacts& facts) {
         draw_governor(settings.frame_ms, facts);
         ImGui::SliderFloat("glare", &settings.glare_strength, 0.0f, 8.0f, "%.2f x",
                            ImGuiSliderFlags_AlwaysClamp);
+        draw_fireflies(settings.fireflies, int(state.fireflies.size()));
         if (ImGui::CollapsingHeader("Cost", ImGuiTreeNodeFlags_DefaultOpen)) draw_costs(facts);
         if (ImGui::CollapsingHeader("Settings")) draw_settings(ROWS, SCALE_ROW, settings.settings);
     }
@@ -150,8 +142,8 @@ void draw_sandbox_panel(SandboxSettings& settings, const SandboxFacts& facts, co
     draw_cross(state);
     if (state.dead_count > 0) draw_note("task", ImVec2(0.5f, 0.0f), describe_task(state));
     if (!facts.message.empty()) draw_note("message", ImVec2(0.0f, 1.0f), facts.message);
-    if (facts.shows_help) draw_note("help", ImVec2(0.5f, 0.5f), HELP);
-    if (facts.shows_panel) draw_panel_window(settings, facts);
+    if (facts.shows_help) draw_help(facts.help);
+    if (facts.shows_panel) draw_panel_window(settings, facts, state);
     if (!facts.has_mouse) draw_note("paused", ImVec2(0.3f, 0.9f), "Click to go on. Escape quits.");
 }
 

@@ -8,6 +8,7 @@
 #include "../play/simulation.h"
 #include "../recent_timings.h"
 #include "../tarn_names.h"
+#include "help.h"
 
 namespace game {
 
@@ -16,11 +17,13 @@ struct SandboxSettings {
     Settings settings;
     std::string preset;  // that was last chosen
     float glare_strength = 1.0f;
+    int fireflies = 0;      // that shine
     float frame_ms = 0.0f;  // what a frame may take; 0: as long as it does
 };
 
 struct SandboxFacts {
     bool shows_help = false;
+    std::vector<HelpLine> help;
     bool shows_panel = false;
     bool has_mouse = false;  // else play waits
     std::string message;     // the last screenshot or error

@@ -6,9 +6,19 @@
 
 namespace game {
 
-Stage::Stage(Scene scene)
+namespace {
+
+Level make_level_with(const Scene& scene, std::optional<int> fireflies) {
+    Level level = make_level(scene);
+    if (fireflies) level.fireflies = *fireflies;
+    return level;
+}
+
+}  // namespace
+
+Stage::Stage(Scene scene, std::optional<int> fireflies)
     : scene_(std::move(scene)),
-      level_(make_level(scene_)),
+      level_(make_level_with(scene_, fireflies)),
       level_hash_(compute_hash(level_)),
       simulation_(level_),
       actors_(scene_, level_, simulation_.state()),
@@ -19,7 +29,7 @@ Stage::Stage(Scene scene)
 void Stage::show() {
     const PlayState& state = simulation_.state();
     if (is_animated_) scene_.move_to(double(state.step) * STEP_S);
-    actors_.show(state);
+    actors_.show(state, lit_fireflies_);
 }
 
 Frame Stage::make_frame(const StageLook& look, std::uint32_t number, double elapsed_s) const {

@@ -20,13 +20,13 @@ std::string lower_ending(const std::filesystem::path& file) {
 std::unique_ptr<Stage> load_stage(const StageSource& source) {
     SceneOptions options;
     options.environment = source.sky;
-    return std::make_unique<Stage>(Scene::load(Scene::find_file(source.scene), options));
+    return std::make_unique<Stage>(Scene::load(Scene::find_file(source.scene), options), source.fireflies);
 }
 
 StageSource with_file(const StageSource& source, const std::filesystem::path& file) {
     const std::string ending = lower_ending(file);
-    if (ending == ".gltf" || ending == ".glb") return {file.string(), {}};
-    if (ending == ".hdr" || ending == ".exr") return {source.scene, file};
+    if (ending == ".gltf" || ending == ".glb") return {file.string(), {}, source.fireflies};
+    if (ending == ".hdr" || ending == ".exr") return {source.scene, file, source.fireflies};
     throw Error(fmt::format("{}: neither a scene (.gltf, .glb) nor a sky (.hdr, .exr)", file.string()));
 }
 

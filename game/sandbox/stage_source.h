@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "stage.h"
@@ -10,8 +11,9 @@
 namespace game {
 
 struct StageSource {
-    std::string scene;          // a .gltf or .glb file, or the name of one of Tarn's scenes
-    std::filesystem::path sky;  // an .hdr or .exr file; empty: the scene's own
+    std::string scene;                            // a .gltf or .glb file, or the name of one of Tarn's scenes
+    std::filesystem::path sky;                    // an .hdr or .exr file; empty: the scene's own
+    std::optional<int> fireflies = std::nullopt;  // as for Stage
 
     bool operator==(const StageSource&) const = default;
 };

@@ -27,6 +27,7 @@ Replay make_head(const game::Level& level) {
     Replay replay;
     replay.scene = COURT;
     replay.level_hash = compute_hash(level);
+    replay.fireflies = level.fireflies;
     replay.width_px = 96;
     replay.height_px = 54;
     const game::Settings settings = game::Settings::preset("clean");
@@ -151,6 +152,20 @@ TEST_F(SandboxReplay, ATorchLightsWhatIsNear) {
     EXPECT_NE(read_frames("lit")[1], read_frames("dark")[1]);
 }
 
+TEST_F(SandboxReplay, FirefliesAreSeen) {
+    Replay none = record_walk(2 * EVERY, false), many = none;
+    none.is_complete = many.is_complete = false;  // the state has the fireflies in it
+    none.fireflies = 0;
+    many.fireflies = 1000;
+    for (const bool flies : {false, true}) {
+        game::save_replay(folder_.file("a.replay"), flies ? many : none);
+        const ProcessResult result = play(flies ? "many" : "none");
+        ASSERT_EQ(result.status, 0) << result.err;
+    }
+    ASSERT_EQ(read_frames("many").size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NE(read_frames("many")[i], read_frames("none")[i]);
+}
+
 // The program itself holds the state at the end against the recorded one.
 TEST_F(SandboxReplay, ALongWalkUpTheStairEndsTheSameInTheProgramWithAndWithoutAWindow) {
     game::save_replay(folder_.file("a.replay"), record_climb());
@@ -192,7 +207,7 @@ TEST_F(SandboxReplay, WhatIsBrokenIsNamedInOneLine) {
     replay.settings.emplace_back("colour", "red");
     game::save_replay(folder_.file("a.replay"), replay);
     expect_error("no setting 'colour'");
-    std::ofstream(folder_.file("a.replay")) << "tarn-sandbox-replay 2\nscene x\n";
+    std::ofstream(folder_.file("a.replay")) << "tarn-sandbox-replay 4\nscene x\n";
     expect_error("line 3: the file is cut off before its first step");
 }
 
