@@ -296,7 +296,6 @@ void add_view_rows(std::vector<Setting>& table) {
 const std::vector<Setting>& setting_table() {
     static const std::vector<Setting> table = [] {
         std::vector<Setting> rows;
-        add_primary_rows(rows);
         add_direct_rows(rows);
         add_reuse_rows<DirectReusePart>(rows, "", direct_reuses);
         add_visibility_reuse_row(rows);
@@ -306,6 +305,7 @@ const std::vector<Setting>& setting_table() {
         add_validation_row(rows);
         add_denoise_rows(rows);
         add_antialias_rows(rows);
+        add_primary_rows(rows);
         add_view_rows(rows);
         return rows;
     }();

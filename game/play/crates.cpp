@@ -85,7 +85,7 @@ void Crates::remove(Crate& crate) {
 
 void Crates::restore(const Crates& others, const std::vector<BodySnapshot>& snapshots) {
     for (std::size_t i = 0; i < snapshots.size(); ++i) {
-        crates_.push_back({others.crates_[i].start, nullptr, {}});
+        crates_.emplace_back().start = others.crates_[i].start;
         add(crates_.back(), place_of(snapshots[i]));
         restore_motion(*crates_.back().body, snapshots[i]);
     }

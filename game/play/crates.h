@@ -32,9 +32,9 @@ class Crates {
 
   private:
     struct Crate {
-        btTransform start;
+        btTransform start = btTransform::getIdentity();
         std::unique_ptr<btRigidBody> body;
-        btVector3 last;  // its middle after the last step
+        btVector3 last{0.0f, 0.0f, 0.0f};  // its middle after the last step
     };
 
     std::optional<btTransform> find_place(const CratePlace& place, btScalar depth_m) const;

@@ -63,23 +63,23 @@ btVector3 find_start(const std::shared_ptr<LevelShape>& shape, const Level& leve
     return {eye.x(), ground + ABOVE_FLOOR_M, eye.z()};
 }
 
-// All that moves, in a world of its own.
-struct Bodies {
-    Bodies(std::shared_ptr<LevelShape> shape, const btVector3& feet, btScalar lowest_m)
-        : physics(std::move(shape)),
-          character(physics, feet),
-          balls(physics, lowest_m),
-          crates(physics, lowest_m) {}
-
-    Physics physics;
-    Character character;
-    Balls balls;
-    Crates crates;
-};
-
 }  // namespace
 
 struct Simulation::Parts {
+    // All that moves, in a world of its own.
+    struct Bodies {
+        Bodies(std::shared_ptr<LevelShape> shape, const btVector3& feet, btScalar lowest_m)
+            : physics(std::move(shape)),
+              character(physics, feet),
+              balls(physics, lowest_m),
+              crates(physics, lowest_m) {}
+
+        Physics physics;
+        Character character;
+        Balls balls;
+        Crates crates;
+    };
+
     explicit Parts(const Level& level)
         : shape(std::make_shared<LevelShape>(level)),
           lowest_m(level.triangles.empty() ? -1e6 : level.bounds.lower.y - level.origin.y - FALL_LIMIT_M),

@@ -193,8 +193,9 @@ TEST_F(PlaySave, BallsFlyAndRollOnThroughASnapshot) {
             EXPECT_LT(std::hypot(a.x - b.x, a.z - b.z), 0.05) << "ball " << i << ", step " << step;
         }
         // The first rolls.
-        if (step > game::SNAPSHOT_STEPS - 3)
+        if (step > game::SNAPSHOT_STEPS - 3) {
             EXPECT_GT(turn(before[0].rotation, balls[0].rotation), 0.05) << "step " << step;
+        }
         before = balls;
     }
     EXPECT_GT(std::hypot(before[0].velocity.x, before[0].velocity.z), 1.0);
