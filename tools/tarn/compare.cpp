@@ -60,7 +60,6 @@ Pair load_pair(const CompareOptions& options) {
 void run_pair(const CompareOptions& options) {
     if (!options.junit.empty() || !options.html.empty())
         throw UsageError("--junit and --html are for two folders; --json and --difference for two pictures");
-    check_output_folder(options.difference);
     Pair pair = load_pair(options);
     const Comparison comparison = compare_pair(pair);
     const nlohmann::ordered_json json = describe_comparison(pair, comparison);
@@ -104,7 +103,6 @@ std::vector<PictureResult> judge_pictures(const FolderOptions& options, const st
 void run_folders(const CompareOptions& options) {
     if (!options.difference.empty())
         throw UsageError("--difference is for two pictures; --html shows folders");
-    check_output_folder(options.junit);
     FolderOptions folders{options.reference, options.image, options.exposure_ev, options.limits};
     if (folders.limits.empty()) folders.limits = default_limits();
     check_folders(folders);
@@ -124,7 +122,8 @@ void run_folders(const CompareOptions& options) {
 }
 
 void run_compare(const CompareOptions& options) {
-    check_output_folder(options.json);
+    for (const std::filesystem::path& file : {options.json, options.difference, options.junit})
+        check_output_folder(file);
     for (const std::filesystem::path& path : {options.reference, options.image}) {
         if (!std::filesystem::exists(path)) throw Error("{}: no such file or folder", path.string());
     }
