@@ -16,10 +16,6 @@ Culling culling_of(const World& world, std::uint32_t instance) {
     return world.instances[instance].mirrored ? Culling::BACK_MIRRORED : Culling::BACK;
 }
 
-bool needs_coverage(const World& world, std::uint32_t instance) {
-    return (world.flags_of(instance) & (MATERIAL_ALPHA_MASK | MATERIAL_ALPHA_BLEND)) != 0u;
-}
-
 // A buffer that grows by doubling.
 template <class Row>
 bool reserve(std::unique_ptr<Buffer>& buffer, const std::string& name, std::size_t count) {
@@ -102,7 +98,7 @@ void GBufferPass::collect_draws(const FrameContext& frame, const World& world, c
     for (const TriangleRange& range : ranges) {
         const WorldMesh& mesh = world.meshes[world.instances[range.instance].mesh];
         const Culling culling = culling_of(world, range.instance);
-        const bool coverage = needs_coverage(world, range.instance);
+        const bool coverage = world.has_alpha_test(range.instance);
         const auto bucket = std::find_if(buckets_.begin(), buckets_.end(), [&](const Bucket& b) {
             return b.culling == culling && b.coverage == coverage;
         });

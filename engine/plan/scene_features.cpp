@@ -133,8 +133,7 @@ FeatureSurvey survey_features(const World& world, const ChangeHistory& history) 
     note(&F::light_history, history.lights_change, "lights move or change");
     for (std::uint32_t i = 0; i < world.instances.size(); ++i) {
         survey.triangles += world.meshes[world.instances[i].mesh].triangle_count;
-        const std::uint32_t alpha_test = MATERIAL_ALPHA_MASK | MATERIAL_ALPHA_BLEND;
-        survey.partly_covered = survey.partly_covered || (world.flags_of(i) & alpha_test) != 0u;
+        survey.partly_covered = survey.partly_covered || world.has_alpha_test(i);
     }
     return survey;
 }

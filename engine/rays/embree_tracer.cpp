@@ -246,7 +246,7 @@ class EmbreeTracer : public RayTracer {
         snapshots_ = {};
         is_filtered_.assign(world.meshes.size(), false);
         for (std::uint32_t i = 0; i < world.instances.size(); ++i) {
-            if (has_alpha_test(world.flags_of(i))) is_filtered_[world.instances[i].mesh] = true;
+            if (world.has_alpha_test(i)) is_filtered_[world.instances[i].mesh] = true;
         }
         static_meshes_.clear();
         still_ = std::make_unique<EmbreeStillWorld>(device_.get(), world, is_filtered_, filter_coverage);

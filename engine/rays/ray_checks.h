@@ -23,23 +23,17 @@ inline RayState classify_ray(const RayRecord& ray) {
     return finite && directed ? RayState::TRACEABLE : RayState::REJECTED;
 }
 
-// Whether hits on a surface with these MATERIAL_* flags depend on its opacity.
-inline bool has_alpha_test(std::uint32_t flags) {
-    return (flags & (MATERIAL_ALPHA_MASK | MATERIAL_ALPHA_BLEND)) != 0u;
-}
-
 // Whether a ray of `pixel` meets the surface there, or passes through its alpha. `material_rows`: those of
 // the moment that the ray belongs to.
 inline bool is_hit_covered(const World& world, std::span<const glm::uvec4> material_rows,
                            const CoverageKey& key, std::uint32_t pixel, std::uint32_t instance,
                            std::uint32_t primitive, const glm::vec2& barycentrics) {
-    const std::uint32_t flags = world.flags_of(instance);
-    if (!has_alpha_test(flags)) return true;
+    if (!world.has_alpha_test(instance)) return true;
     SceneAccess access(world, material_rows);
     const MaterialRecord material = access.load_material(world.material_of(instance));
     const float opacity = access.load_opacity(instance, primitive, barycentrics);
     const float u = random_coverage(RandomKey{pixel, key.frame, key.seed}, key.ray, instance, primitive);
-    return access.is_covered(flags, material.alpha_cutoff, opacity, u);
+    return access.is_covered(world.flags_of(instance), material.alpha_cutoff, opacity, u);
 }
 
 }  // namespace tarn

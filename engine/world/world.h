@@ -78,6 +78,10 @@ struct World {
         return instance_rows[instance * INSTANCE_ROWS + 3].z;
     }
     std::uint32_t flags_of(std::uint32_t instance) const { return material_flags[material_of(instance)]; }
+    // Whether hits on its surface depend on its opacity.
+    bool has_alpha_test(std::uint32_t instance) const {
+        return (flags_of(instance) & (MATERIAL_ALPHA_MASK | MATERIAL_ALPHA_BLEND)) != 0u;
+    }
 };
 
 struct WorldOptions {

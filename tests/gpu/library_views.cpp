@@ -130,6 +130,16 @@ TEST_F(LibraryViews, AReportSaysWhatWasDrawnTracedAndDecided) {
     EXPECT_TRUE(decided("TARN_PUNCTUAL_LIGHTS"));
     EXPECT_FALSE(decided("TARN_TRIANGLE_LIGHTS"));
 
+    EXPECT_EQ(report.camera_rays, 0u);
+
+    tarn::Frame by_rays = frame_of(FROM_ABOVE, number_++);
+    by_rays.settings.set("primary", "rays");
+    const tarn::FrameReport traced = view_.draw(by_rays);
+    EXPECT_TRUE(find_pass(traced, "gbuffer/rays").traces_rays);
+    EXPECT_EQ(traced.camera_rays, std::uint64_t(SIZE_PX * SIZE_PX));
+    EXPECT_EQ(traced.triangles_drawn, 0u);
+    EXPECT_EQ(traced.triangles_total, 2u);
+
     tarn::Frame away = frame_of(tarn::Camera::look_at({0.0, 1.5, 0.0}, {0.0, 3.0, 0.0}, 40.0));
     EXPECT_EQ(view_.draw(away).triangles_drawn, 0u);
 }

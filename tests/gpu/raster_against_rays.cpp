@@ -94,6 +94,22 @@ TEST_F(RasterAgainstRays, MaskedAndBlendedSurfaces) {
     expect_agreement(shared_file("AlphaBlendModeTest/AlphaBlendModeTest.glb"));
 }
 
+// The court has 65 triangles for each of these pixels, the Cornell box few for any picture.
+TEST_F(RasterAgainstRays, RaysDrawWhereTheCpuWouldRasterizeManyTriangles) {
+    constexpr int SMALL_WIDTH_PX = 64, SMALL_HEIGHT_PX = 36;
+    const bool is_software = context_->device_info().is_software;
+    for (const char* name : {"lantern_court", "cornell"}) {
+        const auto scene = load_test_scene(content_file(name));
+        Renderer renderer(scene->world, *scene->tracer, SMALL_WIDTH_PX, SMALL_HEIGHT_PX);
+        FrameInput input;
+        input.camera = first_camera(*scene, double(SMALL_WIDTH_PX) / SMALL_HEIGHT_PX);
+        const bool by_rays = is_software && name == std::string("lantern_court");
+        const FrameOutput output = renderer.render(input);
+        EXPECT_EQ(output.camera_rays, by_rays ? std::uint64_t(SMALL_WIDTH_PX * SMALL_HEIGHT_PX) : 0u) << name;
+        EXPECT_EQ(output.raster.triangles_drawn > 0u, !by_rays) << name;
+    }
+}
+
 // ---- Acne and leaks
 // -------------------------------------------------------------------------------------------------
 

@@ -119,7 +119,7 @@ class BareEmbree {
             positions[v] =
                 glm::vec3(instance.world_from_object * glm::vec4(row_xyz(world_.vertex_rows[row]), 1.0f));
         }
-        if (has_alpha_test(world_.flags_of(index))) {
+        if (world_.has_alpha_test(index)) {
             rtcSetGeometryOccludedFilterFunction(geometry, filter);
             rtcSetGeometryIntersectFilterFunction(geometry, filter);
         }
